@@ -123,7 +123,10 @@ def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Show
 
 
 def _asked_back(pairs: Pairs, faults: list[Fault]) -> list[Fault]:
-    """Replace the fault of a text that has two readings by a question. The question asks which reading is meant."""
+    """Return the faults, with questions in place of some of them.
+
+    If a text in the query has two readings, the fault of this text is replaced by the question which reading is meant.
+    """
     asked = {name: question(text) for name, text in pairs if question(text)}
     named = ((next((name for name in asked if f"{fault.path}.".startswith(f"{name}.")), ""), fault) for fault in faults)
     return [*dict.fromkeys(Fault(name, asked[name]) if name else fault for name, fault in named)]
@@ -165,7 +168,7 @@ def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] 
 
 
 def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, compute: bool = False) -> dict[str, Any]:
-    """Return the template's variables for the answer of a case and for its comparison with the variant.
+    """Return the template's variables for the answer of a case and for the comparison of the case with the variant.
 
     `trouble` says why the variant cannot be computed.
     """

@@ -117,8 +117,9 @@ def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | N
 
 
 def with_answer(document: Document, stage: int, endpoint: str, answer: dict[str, Any]) -> File:
-    """Return the file with new attributes of the stage: the results, the status and the case of an answer.
+    """Return the file with new attributes of the stage.
 
+    The attributes state the results of the answer, the status of the answer, and the identifier of the case.
     A result is written to the attribute of the standard if the file's version of REXS has an attribute for this result.
     The names of all other new attributes begin with `custom_tribodrive_`. REXS reserves names that begin with `custom_`
     for the attributes of programs.

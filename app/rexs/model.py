@@ -101,7 +101,7 @@ class Model:
         return None if id_ is None else self.components.get(id_)
 
     def relations_of(self, type_: str, role: str, component: int) -> Sequence[Relation]:
-        """Return the relations of a type in which the component has the role `role`.
+        """Return those relations of the type `type_` in which the component `component` has the role `role`.
 
         Relations that state an order come first, and are sorted by this order.
         """
@@ -135,7 +135,7 @@ class Model:
         return next((reference for origin in given for reference in self.references_of(origin.id, type_)), None)
 
     def references_of(self, origin: int, *types: str) -> Iterator[Component]:
-        """Yield the components to which a component refers and whose type is one of `types`.
+        """Yield the components of the types `types` to which the component `origin` refers.
 
         For example, a gear refers to its material and its tools.
         """

@@ -162,9 +162,10 @@ class Train:
         return forces
 
     def _loads(self, speeds: dict[int, float], reading: Reading) -> tuple[dict[int, float], set[int]]:
-        """Return the sum of the stated torques on each group [N m], and the groups that carry unknown torques as well.
+        """Return the sum of the stated torques on each group [N m], and the set of the groups with an unknown torque.
 
-        A torque is unknown if it enters or leaves the unit at a group and the file does not state its value.
+        A group has an unknown torque if a torque enters or leaves the unit at this group, but the file does not state
+        the value of this torque.
         """
         torques: dict[int, float] = defaultdict(float)
         opened, leaving = set(self._elsewhere), set()

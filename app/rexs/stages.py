@@ -151,7 +151,7 @@ class StageDraft(Draft):
 
     @property
     def load_sources(self) -> set[int]:
-        """The ids of the components that state only torques, speeds and shares of time in a load case."""
+        """The ids of the components whose attributes in a load case are only torques, speeds and shares of time."""
         model = self.reading.model
         sources = (model.first("gear_unit"), *model.by_type["shaft"], *model.by_type["external_load"])
         return {source.id for source in sources if source is not None}

@@ -19,7 +19,7 @@ class MeasuredTemperatures(Section, of=si.Measured):
     """Temperatures measured in operation.
 
     If the temperature of a gear is given, the wetting share follows from this temperature. If the temperature of the
-    drained oil is given, the other losses follow from this temperature.
+    drained oil is given, the field `other_w` of the cooling follows from this temperature.
     """
 
     exclusive: ClassVar = (("pinion_flank_c", "pinion_body_c"), ("wheel_flank_c", "wheel_body_c"))
@@ -37,7 +37,7 @@ class GearCooling(Section, of=si.Cooling):
         """Mark fields as unused if their values follow from other inputs that are given.
 
         The oil flow determines the rise of the oil temperature. The measured temperature of a gear determines the
-        wetting share. The measured temperature of the drained oil determines the other losses.
+        wetting share. The measured temperature of the drained oil determines the losses in the field `other_w`.
         """
         measured = self.measured
         return {
@@ -77,9 +77,9 @@ class BulkByStandards(Group, of=results.BulkEstimates):
 
 
 class BandOfHeat(Group, of=results.HeatBand):
-    """Ranges in which the flank temperatures and the safety factor lie, because the cooling is uncertain.
+    """Ranges of the flank temperatures and of the safety factor.
 
-    The ranges state no probability.
+    The ranges show the effect of the uncertain cooling. They state no probability.
     """
 
 

@@ -131,9 +131,9 @@ class _CouplingRequest(Request):
     def unused(self) -> dict[str, bool]:
         """Mark inputs as unused if other inputs make them ineffective.
 
-        If the inlet length is given, the limit of the oil inlet is ineffective. In the arrangement `single`, the
-        distance between the hubs is ineffective, unless a parallel offset is given. In arrangements other than
-        `parallel_offset`, the factor of the simple thrust model is ineffective.
+        If the inlet length is given, the choice of what limits the oil inlet is ineffective. In the arrangement
+        `single`, the distance between the hubs is ineffective, unless a parallel offset is given. In arrangements other
+        than `parallel_offset`, the factor of the simple thrust model is ineffective.
         """
         arrangement, offset = self.operation.arrangement, getattr(self.operation, "parallel_offset_mm", None)
         return {
@@ -232,8 +232,8 @@ class FrictionRegime(Group, of=results.Regime):
 class CouplingLubrication(Group, of=results.Lubrication):
     """Contact and film of the most heavily loaded tooth.
 
-    If all pitches are equal, this tooth has the largest load of all teeth while one of the teeth is in the tilt
-    position. If there are pitch deviations, this tooth has the largest load in a whole revolution.
+    If all pitches are equal, the loads of all teeth are compared at one moment: when a tooth is in the tilt position.
+    If there are pitch deviations, the loads of all teeth are compared over a whole revolution.
     """
 
     views: ClassVar = {

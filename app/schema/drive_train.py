@@ -68,7 +68,7 @@ class TrainOperation(ScuffingLoad, of=si.Arrangement, without=("hand",)):
 
 
 class GroundCurve(Section, of=mesh.LeadCurve):
-    """A gap along the face, ground in addition to the named modifications.
+    """A gap along the face. The gap is ground in addition to the named modifications.
 
     The gap may have any shape. Empty lists mean that there is no such gap.
     """
@@ -335,8 +335,8 @@ class DriveTrainRequest(MeshInOil):
     def bodies_hold_the_pumped_heat(self) -> Self:
         """Set `thermal.bulk_includes_pumping` if the bulk temperature comes from the heat balance.
 
-        The heat of pumping is part of the heat balance. If the bulk temperature comes from the heat balance, a request
-        that sets the field to false is therefore refused.
+        The heat balance already contains the heat of pumping. If the bulk temperature comes from the heat balance, a
+        request that sets the field to false is refused.
         """
         if not self.is_balanced:
             return self
@@ -423,7 +423,7 @@ class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
         return self
 
     def unused(self) -> dict[str, bool]:
-        """Mark the mass of the casing as used, and the list of states as unused."""
+        """Mark the list of states as unused. Do not mark the mass of the casing, because a warm-up uses this mass."""
         return super().unused() | {"cooling.casing.mass_kg": False, "states": True}
 
     def inputs(self) -> warm_up.WarmUpInputs:  # type: ignore[override]
@@ -437,8 +437,8 @@ class BearingLoad(Group, of=results.BearingResult):
 class ShaftThrust(Group, of=thrust_budget.Thrust):
     """Axial forces on a shaft, positive towards +Z.
 
-    Only the limit of the axial friction force in the couplings is known. The load on the thrust bearing therefore lies
-    between the two bounds `lower_n` and `upper_n`.
+    The axial friction force in the couplings has an unknown value and an unknown sign; only its largest possible
+    magnitude is known. The load on the thrust bearing therefore lies between the two bounds `lower_n` and `upper_n`.
     """
 
     views: ClassVar = {"use": View(limit=1.0)}
@@ -488,8 +488,8 @@ class TrainLoad(Group, of=results.FaceLoad):
 class TrainSafety(Group, of=results.TrainSafety):
     """Safety factors against scuffing.
 
-    The factors by thermal EHL are null if `model.lubrication` is `closed_form`. Each of these factors belongs to a line
-    on the flank. The factor is also null if the temperature at a point of this line is not known.
+    If `model.lubrication` is `closed_form`, the factors by thermal EHL are null. Each factor by thermal EHL belongs to
+    a line on the flank. If the temperature at any point of this line is not known, the factor is null.
     """
 
     views: ClassVar = {
@@ -553,10 +553,9 @@ class DriveTrainDerived(MeshDerived, of=derived.Derived):
 
 
 class MisalignmentParts(Group, of=results.Parts):
-    """Contributions to the slope of the gap over the face, one contribution per cause.
+    """Contributions to the slope of the gap that the shafts cause over the face, one contribution per cause.
 
-    The gap is the gap due to the shafts. The contributions are computed for the load distribution at the end of the
-    iteration between shafts and mesh.
+    The contributions are computed for the load distribution at the end of the iteration between shafts and mesh.
     """
 
     member_unit: ClassVar = "um"

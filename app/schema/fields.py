@@ -95,8 +95,8 @@ def tree(model: type[Documented]) -> Branch:
     """Return the whole request or response as one section without a name.
 
     If several leaves are declared with the same title, a section title is added to the title of each of these leaves.
-    The sections around the leaf are searched from the innermost to the outermost. The first section title that does not
-    occur around the other leaves is added.
+    To choose the section title for a leaf, the sections around this leaf are searched from the innermost to the
+    outermost. The first title that does not occur around the other leaves is added.
     """
     namesakes: dict[str, dict[str, list[str]]] = defaultdict(dict)
     for way in _ways(model):
@@ -280,8 +280,8 @@ def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
     """Return the interface names on the way to the field or list item that a solver calls `wanted`.
 
     If several ways match, return the shortest way. If no way matches, return None. `wanted` may leave out sections, but
-    not lists. `wanted` may begin with names that do not belong to the request, because the request does not have these
-    parts of the solver's inputs. The first name that belongs to the request must then be at the root of the request.
+    not lists. The solver's inputs may have outer parts that the request does not have. `wanted` may therefore begin
+    with names that do not belong to the request. In this case, the next name must be at the root of the request.
     """
     request_names: dict[_Names, _Names] = {}
     for way in _ways(model):

@@ -3,9 +3,9 @@
     class CouplingModel(Section, of=si.ModelOptions):
         \"\"\"Choices that the paper leaves open in the coupling model.\"\"\"
 
-This class gets one field for each field that `si.ModelOptions` declares. If the quantity has a unit, the name of the
-field ends with the unit. Solvers append an underscore to a name that is a keyword of Python (`from_`). The field of the
-model does not have this underscore.
+This class gets one field for each field that `si.ModelOptions` declares. If a declared field has a unit, the name of
+the field in the model ends with this unit. Solvers append an underscore to a name that is a keyword of Python
+(`from_`). The name of the field in the model does not have this underscore.
 
 The class body may declare fields of pydantic, too. If such a field has the same name as a filled field, the type in the
 class body replaces the type of the filled field. A default in the class body replaces the default of the filled field.
@@ -220,9 +220,9 @@ def members(model: type[BaseModel]) -> tuple[Member, ...]:
 def _fillings(model: type[Documented], record: Any) -> tuple[tuple[str, Member, Any], ...]:
     """Return the fields of the dataclass `record` that the section `model` fills.
 
-    Each item has three parts. The first part is the name of the field. The second part is the member of the section
-    that fills the field. The third part is the dataclass that the type of the field contains, or None if the type
-    contains no dataclass.
+    Each item has three parts: the name of the field in the dataclass, the member of `model` from which this field is
+    filled, and the dataclass that the type of this field contains. If the type contains no dataclass, the third part is
+    None.
     """
     by_solver_name = {
         member.solver_name: member
@@ -240,7 +240,7 @@ def _fillings(model: type[Documented], record: Any) -> tuple[tuple[str, Member, 
 def _record_in(hint: Any) -> Any:
     """Return the dataclass that a type contains, or None if the type contains no dataclass.
 
-    The type may be the dataclass itself, the dataclass or None, or a tuple of dataclasses.
+    Examples of types that contain the dataclass `Record` are `Record`, `Record | None` and `tuple[Record, ...]`.
     """
     return next((kind for kind, _ in kinds(hint) if is_dataclass(kind)), None)
 
@@ -305,10 +305,10 @@ def _with_choices(document: dict[str, Any], section: type[Any]) -> None:
 class Section(Documented):
     """A part of a request.
 
-    A section refuses unknown fields. A section also refuses numbers that are sent as text, are infinite or are out of
-    range. `choice_code` is the code of the error if a request gives two fields of a group in `exclusive`.
-    `choice_missing` is the code of the error if a request gives no field of a group. If `choice_missing` is None,
-    leaving out all fields of a group is not an error.
+    A section refuses unknown fields, infinite numbers, numbers out of range, and numbers that are sent as text.
+    `choice_code` is the code of the error if a request gives two fields of a group in `exclusive`. `choice_missing` is
+    the code of the error if a request gives no field of a group. If `choice_missing` is None, leaving out all fields of
+    a group is not an error.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True, json_schema_extra=_with_choices)

@@ -192,7 +192,7 @@ class Oil(SheetOil, of=Lubricant):
     @model_validator(mode="before")
     @classmethod
     def properties_follow_the_sheet(cls, given: Any) -> Any:
-        """Make null the default of the oil's properties, unless the viscosity alone describes the oil.
+        """Use null as the default of the oil's properties, unless the viscosity alone describes the oil.
 
         If a grade or data sheet is given, each property that is null follows from the grade or data sheet.
         """
@@ -283,7 +283,8 @@ class CouplingLubricant(SheetOil):
     def unused(self) -> dict[str, bool]:
         """Mark the viscosity as unused if a grade or data sheet is given.
 
-        If neither is given, mark the fields of grade and data sheet and the temperature as unused.
+        If neither is given, mark two things as unused: the fields that describe the oil by grade or data sheet, and the
+        temperature.
         """
         of_a_sheet = () if self.by_sheet else (*SheetOil.model_fields, "temperature_c")
         return super().unused() | dict.fromkeys(of_a_sheet, True) | {"viscosity_pa_s": self.by_sheet}

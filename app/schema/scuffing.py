@@ -136,7 +136,7 @@ class MicropittingResult(Group, of=film_results.Micropitting):
 
 
 class FlankWear(Group, of=film_results.Wear):
-    """Depth of mild wear of each gear. The depth of a gear is per million revolutions of this gear."""
+    """Depth of mild wear of each gear. The wear of a gear is stated per million revolutions of this gear."""
 
 
 class ScuffingGeometry(Group, of=results.Geometry):
@@ -146,8 +146,8 @@ class ScuffingGeometry(Group, of=results.Geometry):
 class ContactLengthCurves(Group, of=results.LengthCurves):
     """Total length of the contact lines over one base pitch.
 
-    If the length of a spur gear jumps at a roll position, this position occurs twice: first with the length before the
-    jump, and then with the length after the jump.
+    In a spur pair, the total length may jump at some roll positions. Such a position occurs twice: first with the
+    length before the jump, and then with the length after the jump.
     """
 
 
@@ -166,8 +166,8 @@ class ToothStiffness(Group, of=results.Stiffness):
 class TransmissionErrorCurves(Group, of=results.ErrorCurves):
     """Transmission error over one base pitch.
 
-    If the error of a spur gear jumps at a roll position, this position occurs twice: first with the error before the
-    jump, and then with the error after the jump.
+    In a spur pair, the transmission error may jump at some roll positions. Such a position occurs twice: first with the
+    error before the jump, and then with the error after the jump.
     """
 
 
@@ -197,8 +197,8 @@ class FlankPressure(Group, of=results.Pressure):
 class FeatureLineCurves(Group, of=results.FeatureLine):
     """Curves along the feature line, a diagonal of the flank from A1 to E2.
 
-    A1 is point A of the path of contact at the end of the face that meshes first. E2 is point E at the other end. Point
-    C also lies on this line.
+    A1 lies at the start of the path of contact (point A), at the end of the face that meshes first. E2 lies at the end
+    of the path of contact (point E), at the other end of the face. Point C also lies on the feature line.
     """
 
 
@@ -407,9 +407,9 @@ def _is_given(sent: Any, path: str) -> bool:
 class MeshInOil(Request):
     """The parts that requests about scuffing have in common: a loaded pair, an oil, temperatures, a law of friction.
 
-    The keys of `methods` are the paths of fields that choose a method, such as `model.friction`. The values of
-    `methods` are the paths of the fields that hold a given value for this method. If a request gives such a value but
-    does not choose the method, the method is set to "given".
+    `methods` maps each field that chooses a method to the fields that hold given values. For example, the field
+    `model.friction` chooses the method for the friction, and `friction_coefficient` holds a given coefficient of
+    friction. If a request gives such a value but does not choose the method, the method is set to "given".
     """
 
     balance_is_default: ClassVar = False  # whether the heat balance is the default at low speeds, too

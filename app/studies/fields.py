@@ -144,7 +144,8 @@ def clear_excluded(model: type[Documented], body: dict[str, Any], path: str) -> 
 def indexed(path: str, case: dict[str, Any]) -> list[str]:
     """Return the paths that result if indices replace the list markers in a path.
 
-    A path has one marker per list. The result has one path for every item that the lists have in this case.
+    A path has one marker per list. If the path has a single marker, the result has one path per item of the list. If
+    the path has several markers, the result has one path per item of the innermost lists.
     """
     before, star, after = path.partition(f".{ITEM}")
     if not star:

@@ -285,7 +285,7 @@ def unit_cube(method: Method, count: int, dimensions: int, seed: Any, place: str
 
 
 def usual_corners(request: Request) -> dict[str, Axis]:
-    """Return an axis with the usual values of each uncertain input of a gear unit.
+    """Return one axis for each uncertain input of a gear unit. The axis has the usual values of this input.
 
     The keys are the names of the uncertain quantities, such as "friction".
     """

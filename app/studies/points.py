@@ -138,10 +138,10 @@ def needs_film(endpoint: str, output: str) -> bool:
 
 
 def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[str]) -> dict[str, Any]:
-    """Return a request that does not ask for calculations that no output needs.
+    """Return a request with fewer calculations. The values of the outputs do not change.
 
-    These calculations are the thermal film and the gear unit in the cold state. The values of the outputs do not
-    change.
+    If no output needs the thermal film, the film is left out. If no output needs the gear unit in the cold state, this
+    state is left out.
     """
     if endpoint not in BY_FILM:
         return request

@@ -57,7 +57,7 @@ class Pool(Protocol):
 
 
 class PoolLost(Exception):
-    """The processes that solve points are lost. The `code` names the reason in the last line of the study."""
+    """The processes that solve points are lost. In the last line of the study, `code` states the reason."""
 
     code = "scheduler_lost"
 
@@ -103,9 +103,9 @@ async def twice_if_lost(pool: Pool, function: Callable[..., Any], *arguments: An
 async def in_order(
     pool: Pool, question: Question, overrides: Callable[[int], Overrides], indices: range, clock: Clock
 ) -> AsyncGenerator[tuple[range, list[Point]], None]:
-    """Solve the points with the given indices. Yield the solved points chunk by chunk, with the range of the indices.
+    """Solve the points with the given indices. Yield pairs: a range of indices, and the solved points of this range.
 
-    The points are yielded in the order of their indices. `overrides` maps the index of a point to the values that the
+    The pairs are yielded in the order of the indices. `overrides` maps the index of a point to the values that the
     point changes in the request `question.base`. If the process of a chunk is lost, the points of the chunk are solved
     again one by one. If the caller leaves the iteration, chunks that have not begun are cancelled. Chunks that have
     begun run to their end, but nobody waits for their results.

@@ -1,7 +1,7 @@
 """Corners: a sweep over all combinations of the values of a gear unit's uncertain inputs.
 
-A corner is one of these combinations. The page shows how an output varies over the corners, and the load along the face
-at the worst corner.
+A corner is one of these combinations. The page shows two things: the effect of each uncertain input on an output, and
+the load along the face at the worst corner.
 """
 
 from dataclasses import replace
@@ -92,7 +92,7 @@ class Corners(Sweep):
         return grid(ranges, base, min(most, MOST_CORNERS), "ranges")
 
     def _closing(self, summary: Summary, end: Line) -> list[Line]:
-        """Return a line with the extremes of each output, and then the line `end`.
+        """Return one line `extremes` per output, followed by the line `end`.
 
         The line `end` has a warning if some corners have no solution.
         """

@@ -1,7 +1,7 @@
-"""Design: a search for the values of some inputs of a gear unit that give the best result in the worst case.
+"""Design: some inputs of a gear unit are varied, and the values with the best result in the worst case are sought.
 
-On the page of the study, these inputs are the flank correction. The page shows the best correction as a sheet for the
-grinder, and it shows the course of the search.
+On the page of the study, the varied inputs are the flank correction. The page shows the best correction as a sheet for
+the grinder, and it shows the course of the search.
 """
 
 from collections.abc import Sequence
@@ -539,10 +539,10 @@ def _ends(case: Case) -> tuple[str, str]:
 
 
 def _numbers(case: Case, end: Line, at: Overrides) -> Table:
-    """Return a table that compares the values of helix slope and crowning.
+    """Return a table of all values of the helix slope and of the crowning that the pages of this unit show.
 
-    The pages of this unit show different values of helix slope and crowning, because each page answers another
-    question. The table contains all of these values.
+    The pages show different values, because each page answers another question. A row of the table says where its
+    values come from.
     """
     misalignment, inputs = case.response.misalignment, case.response.inputs
     estimate = "first estimate: inputs as described, load spread evenly over the face"

@@ -1,9 +1,14 @@
 """Sensitivity: derivatives of each output with respect to each number of a case, from finite differences.
 
-An integer is moved by 1. Any other input is moved by its tolerance. If such an input has no tolerance, a temperature is
-moved by 1 K, and any other value by 1 %. If the step is a tolerance, the slope over the step is compared with the slope
-over half the step. The page shows a figure and a table of the inputs. The input that changes the output most comes
-first.
+An input is moved by a step. The step is:
+
+- 1 for an integer
+- the tolerance for any other input that has a tolerance
+- 1 K for a temperature without a tolerance
+- 1 % of the value for all remaining inputs
+
+If the step is a tolerance, the slope over the step is compared with the slope over half the step. The page shows a
+figure and a table of the inputs. The input that changes the output most comes first.
 """
 
 from collections import Counter
@@ -77,8 +82,12 @@ class Perturbation:
 def perturbation(leaf: Leaf, value: float) -> Perturbation:
     """Return the perturbation of an input.
 
-    The step of an integer is 1. The step of any other input is the tolerance of the input. If such an input has no
-    tolerance, the step is 1 K for a temperature, and 1 % of the value for any other quantity.
+    The step is:
+
+    - 1 for an integer
+    - the tolerance for any other input that has a tolerance
+    - 1 K for a temperature without a tolerance
+    - 1 % of the value for all remaining inputs
     """
     if leaf.kind == "integer":
         return Perturbation(leaf, value, 1.0)
@@ -139,8 +148,12 @@ def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line
 class Sensitivity(Study):
     """Derivatives of the outputs with respect to the numbers of the case, by finite differences.
 
-    The step of an integer is 1. The step of any other input is the tolerance of the input. If such an input has no
-    tolerance, the step is 1 K for a temperature, and 1 % of the value for any other quantity.
+    The step of an input is:
+
+    - 1 for an integer
+    - the tolerance for any other input that has a tolerance
+    - 1 K for a temperature without a tolerance
+    - 1 % of the value for all remaining inputs
 
     `change` is the change of the output by one step of the input. `elasticity` is the change of the output in per cent
     if the input changes by 1 %. `kink` is true if the slopes below and above the value of the input differ by more than

@@ -760,10 +760,11 @@ class SpectrumPage(StudyPage):
         return scuffing is not None and (self.views.get("show") or self.usual_output.path) == scuffing.contact
 
     def _limits(self, given: dict[str, Any]) -> list[dict[str, Any]] | None:
-        """Return a list with the typed limit, or else with the usual limit of the output.
+        """Return a list with the limit of the output.
 
-        The list is empty if the output has no limit. The result is None if the scuffing temperature is the default
-        limit, because the study then adds this limit itself.
+        If the user typed a limit, the list has this limit. If the user typed no limit, the list has the usual limit of
+        the output, or is empty if there is no usual limit. There is one exception: if the user typed no limit and the
+        scuffing temperature is the default limit, the result is None, because the study adds this limit itself.
         """
         view, scatter, value = self.output.view, given.get("deviation"), given.get("value")
         if value is None and view.bound and isinstance(view.limit, int | float) and not self._assumes_limit:

@@ -163,7 +163,7 @@ class Sweep(Study):
 
     The first line is `sweep`. Then there is a line `point` for each point; the value on the first axis changes most
     slowly. A line `progress` comes if no other line was sent for two seconds. The last line is `end`. If the study ends
-    early, the last line is `error` instead. If the answer is a table, its last row then has the message of the error.
+    early, the last line is `error` instead. In an answer in CSV, the line `error` is a row with the error's message.
 
     A stream that has neither `end` nor `error` was cut off. A request with `from_index` continues the study. The points
     stay the same, and the lines start at the point with this index.
@@ -341,9 +341,9 @@ class SweepPage(StudyPage):
     def _usual_ends(self, leaf: Leaf) -> tuple[float, float] | tuple[None, None]:
         """Return the ends between which a field is varied if the user types no ends.
 
-        The ends lie on both sides of the value in the case, inside the permissible range of the field. There are two
-        exceptions: the case has no value, or the value is 0 and the field has no tolerance. The ends are then the ends
-        of the permissible range. If this range is infinite, the result is (None, None).
+        The ends lie on both sides of the value in the case, inside the permissible range of the field. If the case has
+        no value, the ends are the ends of the permissible range. The same holds if the value is 0 and the field has no
+        tolerance. If the range is infinite in one of these two situations, the result is (None, None).
 
         The ends of an integer field are integers; all other ends are rounded to four significant digits.
         """
@@ -386,8 +386,8 @@ class SweepPage(StudyPage):
         """Return the axis of a field from its ends, its number of points and its scale.
 
         `given` holds what the user typed for the axis. If the field accepts only a fixed set of values, the axis has
-        these values. If these values are numbers, values that are not between the ends are left out. On any other
-        axis of integers, the integers are spread as evenly as possible, and no integer occurs twice.
+        these values. If these values are numbers, values that are not between the ends are left out. If the field
+        accepts any integer in a range, the integers are spread as evenly as possible, and no integer occurs twice.
 
         Raises Unprocessable at `where` if an end is missing, if both ends are equal, or if a field without numbers is
         on the first axis. The later validation of the body reports all other errors.
