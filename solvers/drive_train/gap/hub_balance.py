@@ -235,7 +235,7 @@ def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
 
 
 def _sizes(tilts: FloatArray) -> FloatArray:
-    """Return the size of every tilt [rad] twice: as the scale of the first and of the second component of this tilt."""
+    """Return the scales of all tilt components [rad]. Both components of a tilt have the size of this tilt as scale."""
     return np.repeat(np.maximum(np.hypot(tilts[::2], tilts[1::2]), LEAST_SIZE), 2)
 
 
