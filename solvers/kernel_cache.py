@@ -27,9 +27,9 @@ logger = logging.getLogger(__name__)
 def _writable(folder: Path) -> Path | None:
     """Create the folder if necessary, and return its path.
 
-    The parent of this folder holds one folder for each version. The function keeps the most recently used of these
-    folders, and deletes the others. If files cannot be written to the folder, or if the disk is nearly full, the
-    function logs a warning and returns None.
+    The parent of this folder holds one folder for each version. The function keeps the `KEPT_FOLDERS` folders that were
+    used last, and deletes all older folders. If files cannot be written to the folder, or if the disk is nearly full,
+    the function logs a warning and returns None.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -96,7 +96,7 @@ def shaft_results(
 
 
 def _hub_diameter(inputs: DriveTrainInputs, index: int) -> float | None:
-    """Return the diameter of a shaft under the hub of its coupling [m], or None if the shaft has no coupling."""
+    """Return the diameter [m] of a shaft at the hub of its coupling, or None if the shaft has no coupling."""
     shaft, name = inputs.shafts[index], ("pinion", "wheel")[index]
     for coupling in inputs.couplings:
         if coupling.shaft == name:

@@ -476,10 +476,10 @@ class Effects:
 class DriveTrainInputs:
     """A gear unit: the mesh, the gas that the teeth pump, shafts, couplings and heat.
 
-    The mesh and the pumped spaces describe the same gear pair; only the tip radius of the rack may differ. The load
-    factors of the mesh raise only the load of the contacts, not the load of the shafts. A thrust collar on the pinion
-    replaces the pinion's thrust bearing. The result describes the hot unit; if `states` contains "cold", the result
-    also contains the cold unit.
+    `mesh` and `pumping` both contain the gear pair. The two descriptions of the pair must agree, except for the tip
+    radius of the rack. The load factors of the mesh raise only the load of the contacts, not the load of the shafts. A
+    thrust collar on the pinion replaces the pinion's thrust bearing. The result describes the hot unit; if `states`
+    contains "cold", the result also contains the cold unit.
     """
 
     mesh: ScuffingInputs

@@ -25,8 +25,8 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     -------
     DriveTrainResult
         Results of the hot unit, and of the cold unit if requested. Warnings that only the cold unit has are added to
-        the warnings of the hot unit. Further warnings state that the cold unit has no solution, or that the oil is out
-        of range at the reference temperature.
+        the warnings of the hot unit. If the cold unit has no solution, or if the oil is out of range at the reference
+        temperature, the results of the cold unit are None and a warning states the cause.
 
     Raises
     ------

@@ -127,7 +127,8 @@ def check_path(tip_start: float, tip_end: float, start: float, end: float) -> No
     Raises
     ------
     InvalidInput
-        `no_contact` if the tips leave no path; `involute_interference` if only the fillets leave no path.
+        `no_contact` if the tips leave no path; `involute_interference` if the tips leave a path, but tips and fillets
+        together leave no path.
     """
     if tip_end <= tip_start:
         raise InvalidInput(

@@ -34,7 +34,9 @@ POORLY_COOLED = Extreme(wetting_share=0.2, fling_off_factor=0.7, measured=MEASUR
 
 
 def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Network:
-    """Return the network at one end of the band; values that the user gives stay as given.
+    """Return the network at one end of the band.
+
+    If the user gives a wetting share, a rewetting share or a fling-off factor, the given value is kept.
 
     Parameters
     ----------

@@ -1,7 +1,7 @@
 """Calibration of the network with measured temperatures.
 
-The wetting share is fitted to a measured gear temperature. The other losses (`Network.other`), which no other part of
-the model computes, are fitted to a measured drain temperature.
+The wetting share is fitted to a measured gear temperature. `Network.other`, called the other losses, is the sum of all
+losses that no part of the model computes. These losses are fitted to a measured drain temperature.
 """
 
 from dataclasses import replace

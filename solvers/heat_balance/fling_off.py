@@ -84,10 +84,10 @@ def heat_number(film: float, turn: float) -> float:
 
     Notes
     -----
-    Eq. H2. Here h0' is `film` and t' is `turn`. There are three limits. A thin film reaches the temperature of the
-    wall: q = h0'. In a short turn the film acts as a half space: q = 2 sqrt(t'/pi). For a thick film and a long turn a
-    similarity solution gives q = 0.98. The closed form joins these three limits, and agrees with numerical solutions
-    within 2.5 %.
+    Eq. H2. Here h0' is `film` and t' is `turn`. There are three limiting cases. A thin film reaches the temperature of
+    the wall: q = h0'. In a short turn the film acts as a half space: q = 2 sqrt(t'/pi). For a thick film and a long
+    turn a similarity solution gives q = 0.98. The closed form joins these three limiting cases, and agrees with
+    numerical solutions within 2.5 %.
     """
     short = 2 * sqrt(turn / pi)
     unlimited = short**TIME_POWER + LONG_TURN**TIME_POWER

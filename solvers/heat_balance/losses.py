@@ -144,8 +144,8 @@ def acceleration_power(oil: CoolingOil, flow: float, velocity: float, jet: float
 
     Notes
     -----
-    Eq. H9: rho Q v (v - v_jet). Of this energy, (v - v_jet)^2/2 per unit mass of oil becomes heat when the oil hits the
-    teeth; the rest of the energy becomes heat when the casing stops the oil.
+    Eq. H9: rho Q v (v - v_jet). Per unit mass of oil, the energy is v (v - v_jet). The part (v - v_jet)^2/2 of this
+    energy becomes heat when the oil hits the teeth. The rest of the energy becomes heat when the casing stops the oil.
     """
     return oil.density * flow * velocity * (velocity - jet)
 

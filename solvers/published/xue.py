@@ -49,7 +49,7 @@ def paper_gears(number: int) -> GearPairInputs:
 def paper_pair(
     number: int, modifications: Modifications | None = None, model: Model = PAPER_MODEL
 ) -> LoadDistributionInputs:
-    """Return the inputs for one of the gear pairs 1 to 4, which transmits 50 kW at 2000 1/min."""
+    """Return the inputs for one of the gear pairs 1 to 4. Each of these pairs transmits 50 kW at 2000 1/min."""
     return LoadDistributionInputs(paper_gears(number), PAPER_LOAD, modifications or Modifications(), model=model)
 
 

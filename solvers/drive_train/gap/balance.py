@@ -6,8 +6,8 @@ that shafts, bearings and couplings cause under the load that belongs to g. Newt
 linear equations (I - D B) dg = -R. Here B = dQ/dg is the derivative of the mesh force Q. The force Q is a mean over a
 base pitch. The shafts follow only this mean, because the mesh frequency is far higher than the natural frequencies of
 bending and of the bearing films. D is the derivative of the shafts' gap with respect to Q; the response of the
-couplings is part of D. The mean of the gap belongs to the transmission error and is subtracted. The iteration begins
-with fewer roll positions and slices; most of the steps are made in this way.
+couplings is part of D. The mean of the gap belongs to the transmission error and is subtracted. If no start value is
+given, an iteration with fewer roll positions and slices comes first. This first iteration makes most of the steps.
 """
 
 from dataclasses import dataclass, replace

@@ -197,7 +197,7 @@ def _try_tilts(unit: Unit, force: FloatArray, tilts: FloatArray, share: float = 
 def _yielding(unit: Unit, count: int, state: _State) -> Yielding:
     """Return the motion of the ports while the hubs are in balance, and the derivative of this motion.
 
-    The derivative is the derivative with respect to the force over the face.
+    The motion is differentiated with respect to the force over the face.
     """
     mesh, hubs = state.derivative[:count], state.derivative[count:]
     through = solve_linear(state.by_tilts, _levers(unit.couplings) @ hubs[:, :count])
@@ -208,10 +208,11 @@ def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
     """Follow the tilts of the hubs while the coupling loads grow from zero to their full value.
 
     The path begins at `free`, the hubs without coupling loads. If friction falls with the sliding velocity, a hub can
-    jump between sliding and sticking. At such a jump the share of the coupling loads decreases along the path. The size
-    of a step is therefore not a change of the share, but a distance along the path. In this distance, a change of a
-    hub's tilt is divided by the size of this tilt. The next point of the path lies in the plane that is normal to the
-    step and contains the end of the step; Newton's iteration finds this point (Allgower and Georg 2003, chapter 2).
+    jump between sliding and sticking. At such a jump the share of the coupling loads decreases along the path. The
+    steps therefore have a given length along the path; the share is an unknown. When the length is computed, the change
+    of a hub's tilt is divided by the size of the tilt. The next point of the path lies in a plane. This plane is normal
+    to the step and passes through the end of the step. Newton's iteration finds the point (Allgower and Georg 2003,
+    chapter 2).
     """
     share, state, length = 0.0, _evaluate(unit, force, free, 0.0), LONGEST
     direction = np.append(np.zeros(free.tilts.size), 1.0)
@@ -234,15 +235,15 @@ def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
 
 
 def _sizes(tilts: FloatArray) -> FloatArray:
-    """Return the size of every tilt [rad] twice: as the scale of the first and of the second component of this tilt."""
+    """Return the scales of all tilt components [rad]. Both components of a tilt have the size of this tilt as scale."""
     return np.repeat(np.maximum(np.hypot(tilts[::2], tilts[1::2]), LEAST_SIZE), 2)
 
 
 def _path_direction(state: _State, scale: FloatArray, direction: FloatArray) -> FloatArray:
     """Return the unit vector along the path, with tilts divided by their scales.
 
-    Of the two directions along the path, the result is the direction at an acute angle to `direction`, the direction of
-    the last step.
+    `direction` is the direction of the last step. The path can be followed in two opposite directions. The result
+    points in the direction that forms an acute angle with `direction`.
     """
     tangent = solve_linear(_path_matrix(state, scale, direction), np.append(np.zeros(scale.size), 1.0))
     return np.asarray(tangent / np.linalg.norm(tangent))

@@ -3,12 +3,13 @@
 The gear bodies are assumed to be as warm as the teeth, and the pumped gas heats the gears further. A heated body keeps
 its shape and grows by the strain eps = alpha_L dT; alpha_L is the coefficient of expansion and dT is the temperature
 rise. A point of the body moves away from the axis by eps times the distance between point and axis, and moves along the
-axis by the integral of eps. In the direction of the line of action the flanks of the pinion grow by eps_1 (s_A + x) +
-tan beta_b int_0^y eps_1, and the flanks of the wheel grow by eps_2 (N - s_A - x) - tan beta_b int_0^y eps_2. Here A
-is the start of the path of contact, s_A is the distance from the pinion's base tangent point to A, x is the distance
-from A along the path of contact, N is the distance between both base tangent points, and beta_b is the base helix
-angle. If both gears are equally hot, only the base pitch changes and the contact lines stay parallel. The derivation is
-our own. It was checked against the numerical geometry of a heated helicoid.
+axis by the integral of eps. In the direction of the line of action, the flanks grow by
+    eps_1 (s_A + x) + tan beta_b int_0^y eps_1        on the pinion
+    eps_2 (N - s_A - x) - tan beta_b int_0^y eps_2    on the wheel
+Here A is the start of the path of contact, s_A is the distance from the pinion's base tangent point to A, x is the
+distance from A along the path of contact, y is the position on the face, N is the distance between both base tangent
+points, and beta_b is the base helix angle. If both gears are equally hot, only the base pitch changes and the contact
+lines stay parallel. The derivation is our own. It was checked against the numerical geometry of a heated helicoid.
 """
 
 from dataclasses import dataclass

@@ -153,7 +153,7 @@ def axial_share(port: CouplingPort) -> float:
     Parameters
     ----------
     port : CouplingPort
-        The coupling. The share tau of its friction limit acts axially.
+        The coupling and its shaft.
 
     Returns
     -------
@@ -162,7 +162,7 @@ def axial_share(port: CouplingPort) -> float:
 
     Notes
     -----
-    Eq. D7.
+    Eq. D7. The axial thrust of the coupling is the share tau of the friction limit.
     """
     return cos(pi * min(abs(port.inputs.thrust_fraction), 1.0) / 2)
 

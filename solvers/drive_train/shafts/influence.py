@@ -28,10 +28,10 @@ class ShaftPorts:
     """A shaft with N nodes, and the loads on these nodes.
 
     `loads` (2 planes, 2N, ports) and `torques` (N, ports) are the loads on the nodes per unit load of the ports.
-    `mesh_loads` (2 planes, 2N, stations) holds only the transverse forces of the stations. Two loads (2 planes, 2N) are
-    constant: `weight` is the weight of the shaft and of half a sleeve, `collar` is the moment of the thrust collar
-    under the axial force of the mesh. The moment of the collar under the thrust of the pinion's coupling is part of
-    `loads`.
+    `mesh_loads` (2 planes, 2N, stations) holds only the transverse forces of the stations. `weight` and `collar`
+    (2 planes, 2N) are constant loads. `weight` is the weight of the shaft and of half a sleeve. `collar` is the moment
+    of the thrust collar under the axial force of the mesh. The moment of the collar under the thrust of the pinion's
+    coupling is part of `loads`.
     """
 
     model: ShaftModel
@@ -62,14 +62,14 @@ class ShaftPorts:
 class Unit:
     """The elastic system of a unit at its ports: the stations of the face, then five ports per coupling.
 
-    A coupling's ports are five motions of the shaft at the unit's hub: the displacements U and V along X and Y, both
-    slopes, and the motion along Z. The motion along Z is the response of the thrust collar to the coupling's thrust;
-    this motion is 0 without a collar.
+    The five ports of a coupling belong to five motions of the shaft at the unit's hub: the displacements U and V along
+    X and Y, both slopes, and the motion along Z. The motion along Z follows from the slopes of both shafts at the
+    thrust collar. Without a collar this motion is 0. For a coupling of the wheel this motion is always 0.
 
     `elastic` (ports, ports) [m/N, ...] is the flexibility with the bearings at rest. `rest` is the motion of the ports
-    under the constant loads. Under loads q of the ports the bearings carry `bearing_loads` @ q + `bearing_rest` [N]:
-    X and Y of the pinion's two bearings, then X and Y of the wheel's two bearings. `offsets` [m] are the offsets of the
-    bores in the same order.
+    under the constant loads. Under loads q of the ports, the loads on the bearings are `bearing_loads` @ q +
+    `bearing_rest` [N]. The order of these loads is: X and Y at the pinion's first bearing, X and Y at the pinion's
+    second bearing, then the same for the wheel. `offsets` [m] are the offsets of the bores in the same order.
     """
 
     frame: Frame
@@ -236,9 +236,9 @@ def _collar_loads(
 ) -> FloatArray:
     """Return the nodal loads of an axial force of 1 N at the thrust collar; without a collar the loads are 0.
 
-    The force points towards +Z on the pinion and towards -Z on the wheel. The force acts at the radius of the collar
-    and therefore loads the shaft with a tilting moment at y = b. The force balances the axial forces of mesh and
-    couplings on the pinion.
+    A collar balances the axial forces of mesh and couplings on the pinion. The force of 1 N points towards +Z on the
+    pinion and towards -Z on the wheel. The force acts at the radius of the collar, and therefore loads the shaft with a
+    tilting moment. This moment acts at the end of the face with y = b.
     """
     loads = np.zeros((2, 2 * model.z.size))
     if inputs.collar_radius is not None:

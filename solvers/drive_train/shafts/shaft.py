@@ -155,8 +155,8 @@ def _flexibility(
 def _torsion(shaft: Shaft, z: FloatArray, elements: list[ShaftSection], torque_position: float) -> FloatArray:
     """Return the twist at node i per torque at node j.
 
-    This is the twist of the shaft between the torque input and the node that is nearer to the torque input. The twist
-    is 0 if the nodes lie on different sides of the torque input.
+    If the nodes i and j lie on the same side of the torque input, the result is the twist of the shaft between the
+    torque input and the nearer of both nodes. If the nodes lie on different sides of the torque input, the result is 0.
     """
     modulus = shaft.youngs_modulus / (2 * (1 + shaft.poisson_ratio))
     twist = np.diff(z) / (2 * modulus * np.array([second_moment(part) for part in elements]))

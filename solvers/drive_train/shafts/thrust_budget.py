@@ -18,8 +18,8 @@ USABLE = 0.5  # usable share of the ultimate rating
 class Thrust:
     """Axial forces on one shaft, positive towards +Z, and the bounds of the load on the thrust bearing.
 
-    The bounds are None if a thrust collar replaces the bearing. `customary` is an estimate of the coupling's thrust
-    that follows a rule of thumb.
+    The bounds are None if a thrust collar replaces the bearing. `customary` is the thrust of a coupling by a rule of
+    thumb.
     """
 
     mesh: float = quantity("axial force of the mesh", "F_a", unit="n")

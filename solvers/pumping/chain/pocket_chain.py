@@ -69,7 +69,8 @@ def march_chain(
 ) -> tuple[int, float]:
     """March over all `angles` [rad] in equal steps.
 
-    Returns the number of steps and 0; if a step does not converge, returns -1 and the residual of this step.
+    If all steps converge, return the number of steps, and 0 as the residual. If a step does not converge, return -1 as
+    the number of steps, and the residual of this step.
     """
     turn = (angles[-1] - angles[0]) / ((angles.size - 1) * substeps)
     dt = turn / duct.speed
@@ -109,7 +110,8 @@ def _renew(
 ) -> None:
     """Fill pockets with ambient gas when their stroke begins, and update the balances of mass and energy.
 
-    The content of a pocket is added to the balances when the stroke of the pocket begins and when the stroke ends.
+    Each balance has the fields `begun` and `ended`. When the stroke of a pocket begins, the content of the pocket is
+    added to `begun`. When the stroke ends, the content of the pocket is added to `ended`.
     """
     per_energy = gas.exponent - 1.0
     for i in range(low, high):

@@ -336,8 +336,8 @@ def _add_inflow(balance: Any, share: float, passage: Passage) -> None:
 def _eliminate(pockets: RecordArray, low: int, high: int) -> None:
     """Compute Newton's correction by elimination of the blocks along the chain.
 
-    The forward pass solves the two balances of a pocket for its pressure and its mass. After this pass, the record of
-    the mass balance holds the row for the pressure, and the record of the heat balance holds the row for the mass.
+    The forward pass solves the two balances of each pocket for the pressure and the mass of this pocket. The solved row
+    for the pressure then replaces the mass balance, and the solved row for the mass replaces the heat balance.
     """
     for i in range(low, high):
         mass, heat = pockets[i].mass_balance, pockets[i].heat_balance

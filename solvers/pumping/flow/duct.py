@@ -103,9 +103,10 @@ def stroke_end(duct: Duct) -> float:
 
 @kernel
 def stroke_share(duct: Duct, z: float, angle: float, turn: float) -> float:
-    """Compute the share of a step in which the stroke is under way at z [m].
+    """Compute the share of a time step that belongs to the stroke at the position z [m].
 
-    The step begins at the owner's `angle` [rad]. During the step the owner turns by `turn` [rad].
+    A time step may contain the start or the end of the stroke. The step begins at the owner's `angle` [rad]. During the
+    step the owner turns by `turn` [rad].
     """
     phase = angle - duct.lag * z
     inside = min(phase + turn, stroke_end(duct)) - max(phase, duct.first_angle)
