@@ -25,7 +25,7 @@ PLACES = {
     ),
     "coupling.results.Regime": "coupling#friction",
     "coupling.results.AxialThrust": (
-        "C19; coaxial_limit breakaway_force fraction_of_limit: C20; uniform_load_force: C21; "
+        "C19; coaxial_limit breakaway_force design_force fraction_of_limit: C20; uniform_load_force: C21; "
         "customary_force: coupling#axial-thrust"
     ),
     "coupling.results.SelfInducedThrust": "C22; simple_model_force: C23; uniform_load_force: C24",
@@ -46,7 +46,7 @@ PLACES = {
         "P9; peak_pressure_ratio min_pressure_ratio: P6; peak_axial_mach peak_axial_velocity: P8; "
         "radial_choked axial_choked: Milian 7; max_temperature_rise hottest_position: P10"
     ),
-    "pumping.results.MassFlow": "P7; net_uncertainty radial_uncertainty: P15",
+    "pumping.results.MassFlow": "pumping#mass-flows; net_uncertainty radial_uncertainty: P15",
     "pumping.results.Balance": "Milian 3; energy_error: P5",
     "pumping.results.Totals": "P9",
     "pumping.lead_correction.LeadCorrection": "P12",
@@ -64,8 +64,10 @@ PLACES = {
     ),
     "scuffing.results.ContactLines": "Xue 4",
     "scuffing.results.Stiffness": ("Xue 7; mean_mesh: L15; standard_single standard_mesh: L16; secant_load: L9"),
-    "scuffing.results.TransmissionError": "Xue 9; harmonics: L18",
-    "scuffing.results.LoadOnFlank": "Xue 1; max_line_load contact_fraction balance_error: Xue 9; face_load_factor: L17",
+    "scuffing.results.TransmissionError": "L18",
+    "scuffing.results.LoadOnFlank": (
+        "Xue 1; max_line_load contact_fraction: Xue 9; balance_error: Xue 11; face_load_factor: L17"
+    ),
     "scuffing.results.Place": "S1",
     "scuffing.results.Pressure": "Xue 14",
     "scuffing.results.FrictionLoss": "L19; coefficient: R10",
