@@ -36,7 +36,7 @@ def axis(data: Any, name: str, title: str = "", **options: Any) -> Axis:
 
 
 def axis_of(leaf: Leaf, **options: Any) -> Axis:
-    """Return the axis of a field of a request or of an answer."""
+    """Return the axis of a figure that shows the values of a field. The field belongs to a request or to an answer."""
     return Axis(leaf.title, leaf.unit, symbol=leaf.declared.symbol or "", **options)
 
 

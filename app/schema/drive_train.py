@@ -68,9 +68,9 @@ class TrainOperation(ScuffingLoad, of=si.Arrangement, without=("hand",)):
 
 
 class GroundCurve(Section, of=mesh.LeadCurve):
-    """A gap along the face. The gap is ground in addition to the named modifications.
+    """A modification of any shape along the face, in addition to the named modifications.
 
-    The gap may have any shape. Empty lists mean that there is no such gap.
+    The modification is given as a gap at positions on the face. Empty lists mean that there is no such modification.
     """
 
 

@@ -217,7 +217,7 @@ class Cut(NamedTuple):
 
     @property
     def shares(self) -> tuple[float, float]:
-        """The cumulative probabilities at the two ends, for the original distribution without the cut."""
+        """The cumulative probabilities of the uncut distribution at `low` and at `high`."""
         return float(self.law.cdf(self.low)), float(self.law.cdf(self.high))
 
     def drawn(self, share: FloatArray) -> FloatArray:
@@ -227,7 +227,7 @@ class Cut(NamedTuple):
 
     @property
     def cut_off(self) -> float:
-        """The share of the distribution that lies beyond the two ends; 0 if both ends are equal."""
+        """The share of the uncut distribution below `low` and above `high`; 0 if `low` and `high` are equal."""
         low, high = self.shares
         return low + 1.0 - high if self.low < self.high else 0.0
 

@@ -40,7 +40,11 @@ Outcome = asyncio.Future[Any]
 
 @dataclass(eq=False, slots=True)
 class Job:
-    """A call of an owner: a pickled function with its arguments. `timeout` can end the call while it runs."""
+    """A call of an owner: a pickled function with its arguments.
+
+    While the call runs, the pool uses `timeout` to set the time at which the call is ended. Before the call runs,
+    `timeout` is None.
+    """
 
     owner: Hashable
     call: bytes

@@ -457,8 +457,11 @@ def friction_coefficient(
 def static_friction(friction: Friction) -> float:
     """Return the coefficient of friction at rest.
 
-    The function returns the first available value of this list: the user's static coefficient; the user's coefficient
-    of friction; the coefficient of the friction map at rest without a film.
+    The function returns the first available value of this list:
+
+    - the user's static coefficient
+    - the user's coefficient of friction
+    - the coefficient of the friction map at zero sliding velocity, if the teeth have no film
     """
     if friction.static_coefficient is not None:
         return friction.static_coefficient

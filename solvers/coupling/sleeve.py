@@ -282,8 +282,11 @@ def sleeve_equilibrium(
     Notes
     -----
     Eq. C22. Nothing slides if the axial velocity is zero and, in addition, the misalignment or the speed is zero. The
-    direction of friction is then undetermined. If mu d_o/l_H < cos(pi/z), an equilibrium always exists: for every force
-    g that the teeth can hold, the teeth can also hold the force Phi(g), and Brouwer's theorem applies.
+    direction of friction is then undetermined.
+
+    If mu d_o/l_H < cos(pi/z), an equilibrium always exists. Let Phi(g) be the lateral force that the moments of
+    friction require if the lateral force g acts. For every force g that the teeth can hold, the teeth can also hold the
+    force Phi(g). By Brouwer's fixed-point theorem, Phi(g) = g then has a solution.
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     meshes = two_meshes(inputs, geometry)

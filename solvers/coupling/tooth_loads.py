@@ -142,8 +142,9 @@ def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
 def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
     """Replace the lead w_i of each tooth by its interference u_i under unit torque, in place.
 
-    Returns the common rotation psi twice: first counted from the largest lead, then counted from zero. `start` is a
-    start value for the rotation counted from the largest lead.
+    The lead of a tooth is the length by which the tooth is ahead. Returns two values. The first value is the common
+    rotation psi, counted from the point where the tooth with the largest lead makes contact. The second value is
+    u_i - w_i, which is the same for all teeth. `start` is a start value for the first value.
     """
     highest: float = ahead[0]
     for lead in ahead:

@@ -196,7 +196,11 @@ def _with_rise(coupling: UnitCoupling, casing: float | None, reference: float) -
 def _balance(
     inputs: DriveTrainInputs, warm: DriveTrainInputs, prepared: Prepared, equilibrium: Equilibrium
 ) -> HeatBalanceInputs:
-    """Return the inputs of the heat balance for the gap and the loads of a pass."""
+    """Return the inputs of the heat balance in one pass.
+
+    The inputs of the heat balance follow from the loads in `equilibrium`. `inputs` is the unit as given, and `warm` is
+    the unit at the temperatures with which `equilibrium` was computed.
+    """
     mesh = prepared.mesh.prepared
     spread = distribution(warm.mesh.distribution, mesh, equilibrium.balance)
     contact, spread = with_friction(inputs.mesh, spread)

@@ -1,4 +1,4 @@
-"""Pulsating mass flow out of the ends of the face at the meshing frequency and its multiples."""
+"""Amplitudes of the mass flow at both ends of the face, for the first multiples of the meshing frequency."""
 
 import numpy as np
 

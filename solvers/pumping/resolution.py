@@ -169,7 +169,10 @@ def _side_by_side(gas: Gas, fine: SpaceFlow, coarse: SpaceFlow) -> tuple[FloatAr
 
 
 def _difference(here: FloatArray, there: FloatArray) -> float:
-    """Compute the root mean square difference of two pressure fields at points where both are near their maxima."""
+    """Compute the root mean square difference of two fields.
+
+    Only those points count at which the value of each field is near the maximum of this field.
+    """
     close = (here >= CLOSE * here.max()) & (there >= CLOSE * there.max())
     return float(np.sqrt(np.mean((here - there)[close] ** 2))) if close.any() else 0.0
 

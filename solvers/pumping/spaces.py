@@ -31,9 +31,10 @@ _ANGLES = 201  # number of angles at which fields are recorded, enough for figur
 class Space:
     """The tooth spaces of one gear.
 
-    `speed_ratio` is the speed of the gear divided by the speed of the pinion. The stroke begins at the end of the face
-    that meshes first, and later at every other place of the face. During this delay, the gear turns by the angle `lag`
-    [rad/m] per metre of distance between the place and this end.
+    `speed_ratio` is the speed of the gear divided by the speed of the pinion. At the end of the face that meshes first,
+    the stroke begins first. At every other place of the face, the stroke begins after a delay. During this delay, the
+    gear turns by an angle. This angle is `lag` [rad/m] times the distance between the place and the end that meshes
+    first.
     """
 
     of_pinion: bool

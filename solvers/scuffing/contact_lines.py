@@ -257,8 +257,8 @@ def loaded_zones(
 ) -> int:
     """Find the loaded stretches within a part of a line, write them to `zones`, and return their number.
 
-    `part` contains the first and the last y [m] of the part; the gap has no kink between them. A stretch is loaded if
-    the gap is below `reach` [m]. A row of `zones` contains the first and the last y [m] of a stretch.
+    `part` contains the first and the last y [m] of the part. The gap must have no kink inside the part. A stretch is
+    loaded if the gap is below `reach` [m]. A row of `zones` contains the first and the last y [m] of a stretch.
     """
     low, high = part
     step, count = (high - low) / samples, 0

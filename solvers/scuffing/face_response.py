@@ -22,10 +22,11 @@ class FaceResponse:
     """Transverse forces at the stations, averaged over a base pitch, and their derivatives with respect to the gaps.
 
     `force` [N] has one value for each station. In `derivative` [N/m], the rows are the forces at the stations, and the
-    columns are the gaps at the stations. The sum of all forces is the same at every roll position. Therefore the
-    elements of every row and of every column of `derivative` add up to 0. `error` is the approach of the flanks [m] at
-    every roll position, and `log_load` is ln w of the slices at every roll position. The next response of the same mesh
-    under a similar gap starts from `error` and `log_load`.
+    columns are the gaps at the stations. The elements of every column add up to 0, because a change of the gap does not
+    change the sum of all forces. The elements of every row add up to 0, because no force changes if the gap changes by
+    the same amount at all stations. `error` is the approach of the flanks [m] at every roll position, and `log_load` is
+    ln w of the slices at every roll position. The next response of the same mesh under a similar gap starts from
+    `error` and `log_load`.
     """
 
     force: FloatArray

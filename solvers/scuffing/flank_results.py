@@ -277,8 +277,8 @@ def contact_pressure(plane: ContactPlane, radius: FloatArray, load: FloatArray, 
     Returns
     -------
     ndarray
-        Pressure p_H [Pa]. The pressure is 0 at points without load. It is NaN near a base circle, because the reduced
-        radius vanishes at the base circle, so that the pressure has no limit.
+        Pressure p_H [Pa]. The pressure is 0 at points without load. The pressure is NaN near a base circle: at the
+        base circle itself the reduced radius is 0, and the pressure would be infinite.
 
     Notes
     -----

@@ -278,7 +278,7 @@ def _balanced(mesh: Mesh, rolls: RollPositions, force: float, slices: int, start
 
 
 def _bent_steps(balance: LoadBalance) -> IntArray:
-    """Return the indices of the steps over which TE is not linear, in ascending order.
+    """Return the indices of the steps over which the transmission error TE is not linear, in ascending order.
 
     A step lies between two neighbouring roll positions. At every roll position, TE is compared with the straight line
     through TE at both neighbouring positions. If TE is not close to this line, TE is not linear over the steps on both

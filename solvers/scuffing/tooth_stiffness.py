@@ -283,7 +283,11 @@ def _apex_height(shape: ToothShape) -> float:
 
 
 def _apex_fraction(shape: ToothShape, points: LoadPoints) -> FloatArray:
-    """Return q = (h_i - h_x) / (h_i - h_r); return 1 for load points on the rectangle."""
+    """Return q = (h_i - h_x) / (h_i - h_r); return 1 for load points on the rectangle.
+
+    Here h_i is the height that `_apex_height` returns, h_x is the height of a load point, and h_r is the height of the
+    rectangle.
+    """
     apex = _apex_height(shape)
     return np.minimum((apex - points.height) / (apex - shape.rectangle_height), 1.0)
 
@@ -292,8 +296,8 @@ class PairCompliance(NamedTuple):
     """Compliance of a pair of teeth at equidistant points from A to E.
 
     The compliances `C`, `A` and `a` are defined at the top of this module. For linear contact, `constant` [1/Pa] is `C`
-    and `logarithmic` [1/Pa] is 0. For half-spaces, `constant` is `A` and `logarithmic` is `a`. When the approach
-    of the flanks reaches `limit` [m], the half width of the contact is half the depth of the half-space. At larger
+    and `logarithmic` [1/Pa] is 0. For half-space contact, `constant` is `A` and `logarithmic` is `a`. `limit` [m] is
+    the approach of the flanks up to which the formula for half-space contact is used (see `_half_space`). At larger
     approaches the compliance is held constant.
     """
 
@@ -500,13 +504,14 @@ def line_load(
 def line_load_near(
     approach: float, constant: float, logarithmic: float, limit: float, log_load: float
 ) -> tuple[float, float, float, float]:
-    """Take one step of omega from the guess `log_load`; return the values of `line_load` and the relative step.
+    """Improve a guess of omega by one step. Return the three results of `line_load`, and the relative step of omega.
 
-    The equation omega - ln omega = A/a + ln(a / delta) is solved by the iteration of Fritsch, Shafer and Crowley (1973)
-    for Lambert's function. This iteration needs one logarithm per step and converges from any guess. After a step, the
-    error of omega is of the order of the fourth power of the step. The derivative is dw/d(delta) = 1 / (a (omega - 1)).
-    The guess is given as ln w and not as omega, because ln w changes less than omega between neighbouring roll
-    positions. If `approach` exceeds `limit`, the returned ln w belongs to `limit`.
+    The symbols are defined at the top of this module. The equation omega - ln omega = A/a + ln(a / delta) is solved by
+    the iteration of Fritsch, Shafer and Crowley (1973) for Lambert's function. This iteration needs one logarithm per
+    step and converges from any guess. After a step, the error of omega is of the order of the fourth power of the step.
+    The derivative is dw/d(delta) = 1 / (a (omega - 1)). The guess is given as ln w and not as omega, because ln w
+    changes less than omega between neighbouring roll positions. If `approach` exceeds `limit`, the returned ln w
+    belongs to `limit`.
     """
     if approach <= 0.0:
         return 0.0, 0.0, log_load, 0.0

@@ -342,7 +342,7 @@ def _draw_levels(axes: Axes, panel: Panel) -> None:
 
 
 def _level_style(limit: bool) -> Style:
-    """Return the style of a limit or of a reference."""
+    """Return the style of the line of a limit if `limit` is True, else the style of a reference line."""
     if limit:
         return {"color": LIMIT, "linestyle": (0, (5.0, 2.5)), "linewidth": 1.3}
     return {"color": rcParams["axes.labelcolor"], "linestyle": (0, (1.0, 2.0)), "linewidth": 1.0}

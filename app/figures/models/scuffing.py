@@ -314,9 +314,10 @@ def _unsolved(result: Scuffing) -> int:
 
 
 def _warned(path: ScuffingPath) -> list[Span]:
-    """Return the ranges of a path in which all points have warnings. Only the first range has a name.
+    """Return the ranges of psi in which all points of a path have warnings.
 
-    A range ends midway between a point with warnings and a point without warnings.
+    A range ends midway between a point with warnings and a point without warnings. The figure shows a name for the
+    first range only.
     """
     psi, spans = path.psi, list[Span]()
     edges = np.concatenate([psi[:1], (psi[:-1] + psi[1:]) / 2.0, psi[-1:]])

@@ -384,11 +384,14 @@ def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit
 
 
 def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
-    """Return the part of the last line that concerns one limit.
+    """Return the results for one limit. The last line of the study contains these results.
 
-    It contains the probability over the spectrum. For each case, it contains the share of machines for which this case
-    is the worst case. For each field that scatters, it contains the rank correlation between the field and the output
-    in the worst case. It also contains the quantiles and the histogram of the output in the worst case.
+    The results include:
+
+    - the probability that the worst case of a machine is beyond the limit
+    - for each case, the share of machines for which this case is the worst case
+    - for each field that scatters, the rank correlation between the field and the output in the worst case
+    - the quantiles and the histogram of the output in the worst case
     """
     worst = limit.worst(outputs)
     edges, density = statistics.histogram(worst)

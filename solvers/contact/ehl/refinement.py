@@ -47,7 +47,10 @@ LEAST = {
 
 
 def departure(inputs: LineContactInputs, curves: ContactCurves, field: ContactField) -> float:
-    """Return the largest difference [K] between the reported temperatures and the values that the check requires."""
+    """Return the largest amount [K] by which the reported temperatures violate the conditions of the check.
+
+    The top of this module states these conditions.
+    """
     contact, bulk = inputs.contact, inputs.temperatures
     t = field.temperature
     fluxes = (curves.surface_1_heat_flux, curves.surface_2_heat_flux)

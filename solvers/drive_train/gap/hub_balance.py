@@ -263,8 +263,8 @@ def _find_on_path(
 ) -> tuple[float, _State] | None:
     """Return the share of the coupling loads and the state at the next point of the path.
 
-    The point lies on the plane through the end of `step` that is normal to `step`. Return None if Newton's iteration
-    fails.
+    The point lies on a plane. The plane passes through the end of the vector `step`, and is normal to this vector.
+    Return None if Newton's iteration fails.
     """
     length = float(np.linalg.norm(step))
     place = step

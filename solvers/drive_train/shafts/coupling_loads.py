@@ -314,10 +314,11 @@ def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, F
 
 
 def _polar(tilt: FloatArray, moments: FloatArray, slopes: FloatArray, torque: float) -> tuple[FloatArray, FloatArray]:
-    """Return the vector v = -a e + (b + torque delta) Z x e at a tilt delta e, and the derivative of v by the tilt.
+    """Return the vector v = -a e + (b + torque delta) Z x e, and the derivative of v with respect to the tilt.
 
-    The first two values of `moments` are a and b. The first two values of `slopes` are the derivatives of a and b with
-    respect to delta. If delta is smaller than `LEAST_TILT`, a and b are proportional to delta.
+    Here delta is the size of the tilt, e is the unit vector in the direction of the tilt, and Z is the unit vector
+    along the shaft. The first two values of `moments` are a and b. The first two values of `slopes` are the derivatives
+    of a and b with respect to delta. If delta is smaller than `LEAST_TILT`, a and b are proportional to delta.
     """
     size = hypot(*tilt)
     direction = tilt / size if size > 0.0 else np.array([1.0, 0.0])

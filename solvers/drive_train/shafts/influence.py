@@ -186,7 +186,11 @@ def _shaft_ports(
     speed: float,
     index: int,
 ) -> ShaftPorts:
-    """Return one shaft with the loads of the ports; the mesh forces on pinion and wheel are opposite."""
+    """Return the shaft with the index `index`, and the loads of the ports on the nodes of this shaft.
+
+    The index is 0 for the shaft of the pinion and 1 for the shaft of the wheel. The mesh force on the wheel is opposite
+    to the mesh force on the pinion.
+    """
     shaft, name, sign = inputs.shafts[index], ("pinion", "wheel")[index], (1.0, -1.0)[index]
     z = directions.positions(inputs.face_start, path.plane.face_width, stations)
     hubs = [port.inputs.position for port in couplings if port.inputs.shaft == name]

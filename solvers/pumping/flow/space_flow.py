@@ -165,16 +165,16 @@ class EndFlow:
 class SpaceFlow:
     """One stroke of one tooth space.
 
-    `pressure` [Pa], `mach` and `stagnation_temperature` [K] are fields of shape (angles, positions). Their axes are the
-    owner's `angle` [rad] and the `position` on the face [m]. Curves over the face have the shape (positions,).
-    `mean_temperature` and `mean_stagnation_temperature` [K] are means over the stroke. `peak_pressure` and
-    `lowest_pressure` [Pa] are extremes over the stroke. `peak_mach` is the largest Mach number over the stroke within
-    each slice; in the pocket chain, `peak_mach` is 0.
+    `pressure` [Pa], `mach` and `stagnation_temperature` [K] are fields of shape (angles, positions). `angle`
+    [rad] holds the angles of the gear to which the space belongs, and `position` [m] holds the positions on the face.
+    Curves over the face have the shape (positions,). `mean_temperature` and `mean_stagnation_temperature` [K] are means
+    over the stroke. `peak_pressure` and `lowest_pressure` [Pa] are extremes over the stroke. `peak_mach` is the largest
+    Mach number over the stroke within each slice; in the pocket chain, `peak_mach` is 0.
 
-    `exit_demand` is the largest Mach number that the gas would reach at an end if it expanded to ambient pressure; if
-    this Mach number is above 1, the end is choked. `work` is the work on the gas by pressures above ambient pressure
-    [J]. `mass_error` and `energy_error` are relative errors of conservation. All temperatures are None if the flow
-    model gives no temperatures.
+    `exit_demand` is the largest Mach number that the gas would reach by an expansion to ambient pressure at an end of
+    the face. If `exit_demand` is above 1, an end is choked. `work` [J] is the work done on the gas, computed with the
+    pressure minus the ambient pressure. `mass_error` and `energy_error` are relative errors of conservation. All
+    temperatures are None if the flow model gives no temperatures.
     """
 
     angle: FloatArray

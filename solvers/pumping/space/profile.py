@@ -33,7 +33,11 @@ def sector(roll: float, base: float) -> float:
 
 @kernel
 def sector_to_involute(space: ToothSpace, roll: float) -> float:
-    """Compute the area [m^2] between the owner's axis and half the space's profile, up to a roll length [m]."""
+    """Compute the area [m^2] of a sector between the owner's axis and the profile in one half of the tooth space.
+
+    The sector begins at the centre line of the space. It ends at the point of the involute with the roll length `roll`
+    [m].
+    """
     base = space.base_radius
     return space.root.sector_area + sector(roll, base) - sector(space.root.involute_roll, base)
 

@@ -16,7 +16,11 @@ from solvers.pumping.space.tooth_space import ToothSpace
 
 
 class Section(NamedTuple):
-    """Free area [m^2], clearances of both sides [m], and area of gas that the flanks moved out of the space [m^2]."""
+    """Areas [m^2] and clearances [m] of a tooth space at one angle.
+
+    `area` is the free area of the space. `left` and `right` are the clearances of the left side and of the right side.
+    `carried` is the area of the gas that the flanks have carried out of the space.
+    """
 
     area: float
     left: float

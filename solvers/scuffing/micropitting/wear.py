@@ -39,8 +39,8 @@ def wear_depths(coefficient: float, distribution: LoadDistribution) -> WearDepth
     Notes
     -----
     Eq. M15 of the chapter on micropitting: the depth of wear per passage through the mesh is k w |v_g| / v_i. Here w is
-    the line load, v_g is the sliding speed, and v_i is the surface speed of the gear. Next to a base circle the flank
-    of one gear hardly moves, so that the depth of wear has no limit.
+    the line load, v_g is the sliding speed, and v_i is the surface speed of the gear. At a base circle the surface
+    speed of one gear is 0, and the depth of wear would be infinite. Near a base circle the result is therefore NaN.
     """
     path, flank = distribution.path_of_contact, distribution.flank
     speeds = np.stack(path.surface_speeds(flank.profile_fraction * path.length, 1.0))

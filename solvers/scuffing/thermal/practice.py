@@ -25,7 +25,7 @@ HIGH_RISK_BELOW, LOW_RISK_ABOVE = 1.0, 2.0  # limits of the safety factor; quote
 
 
 def lubricant_factor(viscosity: float, kind: OilKind) -> float:
-    """Compute the lubricant factor in the formula of the mean coefficient of friction for the flash temperature.
+    """Compute the lubricant factor, a factor of the mean coefficient of friction that `mean_friction` returns.
 
     Parameters
     ----------
