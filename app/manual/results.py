@@ -189,7 +189,7 @@ def place_of(declared: Quantity) -> Place | None:
 
 
 def _target(targets: str, name: str) -> str:
-    """Return the target that belongs to the field `name`.
+    """Return the place in the manual for the field `name`, written as in `PLACES`, such as "coupling#numerics".
 
     `targets` is the text in `PLACES` for the dataclass of the field.
     """

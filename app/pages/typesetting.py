@@ -64,8 +64,8 @@ def shown(value: object, digits: int = 5) -> str:
 def cited(text: str) -> str:
     """Return a source or a reason as pages print it.
 
-    If the text names the withdrawn report, the specification that replaced this report is named too. A source that we
-    know only at second hand is called "secondary source".
+    If the text names the withdrawn report ISO/TR 13989-1, the specification ISO/TS 6336-20, which replaced the report,
+    is named too. A source that we know only at second hand is called "secondary source".
     """
     return text.replace(_SECOND_HAND, "secondary source").replace(REPORT, STANDARD)
 

@@ -123,9 +123,9 @@ def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Show
 
 
 def _asked_back(pairs: Pairs, faults: list[Fault]) -> list[Fault]:
-    """Return the faults, with questions in place of some of them.
+    """Return the faults; if the text of a field has two readings, replace the faults of this field by a question.
 
-    If a text in the query has two readings, the fault of this text is replaced by the question which reading is meant.
+    The question asks the user which reading of the text is meant.
     """
     asked = {name: question(text) for name, text in pairs if question(text)}
     named = ((next((name for name in asked if f"{fault.path}.".startswith(f"{name}.")), ""), fault) for fault in faults)

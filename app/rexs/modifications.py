@@ -48,9 +48,10 @@ class Modifications:
     def _working_side(self, place: int) -> str | None:
         """Return the side of the loaded flank: "left" or "right", or None if the loaded flank is not known.
 
-        If the file does not state the loaded flank, it follows from the sense of rotation and the driving gear. A gear
-        with positive speed turns clockwise, seen from the end of the shaft at which u is least (the datum face). With
-        this sense of rotation, the right flank of a driving gear and the left flank of a driven gear are loaded.
+        If the file does not state the loaded flank, the loaded flank follows from the sense of rotation and from the
+        driving gear. The datum face is the end of the gear at which the coordinate u along the shaft is least. Seen
+        from the datum face, a gear with positive speed turns clockwise. With this sense of rotation, the right flank of
+        a driving gear and the left flank of a driven gear are loaded.
         """
         stage = self._stage
         for data in stage.gear_data(place):

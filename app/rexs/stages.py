@@ -247,7 +247,7 @@ class StageDraft(Draft):
         return Involute(self.teeth[place], module, radians(angle), radians(helix), shift)
 
     def values_of(self, components: Iterable[Component], row: table.Row) -> list[tuple[float, Component]]:
-        """Return a pair of value and component for each of the components that has a value for the row."""
+        """Return a pair (value, component) for every component that has a value for the row."""
         numbers = ((self.reading.number(component, row), component) for component in components)
         return [(value, component) for value, component in numbers if value is not None]
 

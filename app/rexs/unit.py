@@ -157,7 +157,10 @@ class _Case(NamedTuple):
 
     @property
     def of_scuffing(self) -> dict[str, Any]:
-        """The case as the answer of /v1/rexs states it. The paths in it are paths in a request of /v1/scuffing."""
+        """The load case as the answer of /v1/rexs contains it.
+
+        The changed fields are named by their paths in a request of /v1/scuffing.
+        """
         return {"name": self.name, "share": self.share, "overrides": self._in(SCUFFING)}
 
     def as_spectrum(self, endpoint: str) -> dict[str, Any]:

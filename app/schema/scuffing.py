@@ -407,9 +407,10 @@ def _is_given(sent: Any, path: str) -> bool:
 class MeshInOil(Request):
     """The parts that requests about scuffing have in common: a loaded pair, an oil, temperatures, a law of friction.
 
-    `methods` maps each field that chooses a method to the fields that hold given values. For example, the field
-    `model.friction` chooses the method for the friction, and `friction_coefficient` holds a given coefficient of
-    friction. If a request gives such a value but does not choose the method, the method is set to "given".
+    Some values are either given in the request or computed by a method. One field chooses the method, and other fields
+    hold the given value. `methods` maps the first field to the other fields. For example, `model.friction` chooses the
+    method for the coefficient of friction, and `friction_coefficient` holds a given coefficient. If a request gives
+    such a value but does not choose the method, the method is set to "given".
     """
 
     balance_is_default: ClassVar = False  # whether the heat balance is the default at low speeds, too

@@ -72,9 +72,9 @@ class Pool:
     async def calculate(self, http: Request, function: Callable[..., Any], *arguments: Any) -> Any:
         """Run a call in a worker and return its result.
 
-        The setting `client_header` may be the name of a header in which a proxy sends the name of the client. This name
-        is the owner of the call. If there is no such name, the owner is the address of the client. Raises the errors of
-        the call, and exceptions in the table `PROBLEMS`.
+        The owner of the call is the client. A proxy may send the name of the client in the header that the setting
+        `client_header` names. If the request has no such header, the address of the client is used instead of the name.
+        Raises the errors of the call, and exceptions in the table `PROBLEMS`.
         """
         owner = http.headers.get(self._settings.client_header or "") or (http.client.host if http.client else "")
         self._admit(owner)

@@ -291,11 +291,12 @@ def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, frict
 
     Notes
     -----
-    Eqs. C25, C28. The moment of friction M_f acts about the pivot direction, against the tilting motion. This moment is
-    M_f = r_o sum mu F_n sgn(v_r) sgn(v_G1) sin phi, where v_G1 is the sliding velocity at 90 degrees. Hence the
-    friction power is P = M_f omega delta + F_ax v_ax. M_f is zero without a tilt. M_f is undetermined if nothing slides
-    at all. The power balance shows that the difference M_f - T delta/2 bends the driving hub. This holds for every load
-    distribution.
+    Eqs. C25, C28. The relative velocity v_r is the sum of the axial velocity v_ax and the sliding velocity v_G due to
+    the tilt. The moment of friction M_f acts about the pivot direction, against the tilting motion. This moment is
+    M_f = r_o sum mu F_n sgn(v_r) sgn(v_G1) sin phi, where phi is the tooth angle and v_G1 is v_G at phi = 90 degrees.
+    Hence the friction power is P = M_f omega delta + F_ax v_ax. M_f is zero without a tilt. M_f is undetermined if
+    nothing slides at all. The power balance shows that the difference M_f - T delta/2 bends the driving hub. This holds
+    for every load distribution.
     """
     operation, sums = inputs.operation, loaded.sums
     scale = friction / cos(inputs.coupling.pressure_angle)

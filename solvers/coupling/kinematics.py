@@ -341,8 +341,9 @@ def flank_normals(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
 
     Notes
     -----
-    Eq. C4: n = side cos(alpha) e_t + sin(alpha) e_r. The tangential tooth force times n/cos(alpha) is the lateral force
-    of the tooth on the sleeve. The radial part of this force points outward for both values of `side`.
+    Eq. C4: n = side cos(alpha) e_t + sin(alpha) e_r. The factor `side` is +1 if the hub drives the sleeve, and -1 if
+    the sleeve drives the hub. The tangential tooth force times n/cos(alpha) is the lateral force of the tooth on the
+    sleeve. The radial part of this force points outward in both cases.
     """
     radial = tan(mesh.pressure_angle)
     return np.stack(

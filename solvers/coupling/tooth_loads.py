@@ -111,7 +111,7 @@ def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
     Parameters
     ----------
     ahead : FloatArray
-        Lead w_i of each tooth, shape (teeth,) [T/(r_o c_t)].
+        Lead w_i of each tooth, that is, the length by which the tooth is ahead; shape (teeth,) [T/(r_o c_t)].
     highest : float
         The largest of the leads [T/(r_o c_t)].
     start : float
@@ -124,12 +124,12 @@ def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
 
     Notes
     -----
-    Eq. C8: sum max(0, psi + lead_i) = 1, where lead_i is w_i minus the largest of the leads. The sum is a convex and
+    Eq. C8: sum max(0, psi + v_i) = 1, where v_i is the lead w_i minus the largest of all leads. The sum is a convex and
     piecewise linear function of psi. From any positive start, the first step of Newton's method leads to the root or to
     a larger value. Each further step reduces psi and unloads at least one tooth, until the linear piece that contains
-    the root is reached. Sorting would give the same result: the leads are sorted in descending order, and
-    psi_k = (1 - sum_1..k lead)/k is the rotation if only the first k teeth are loaded. The root is the
-    psi_k with the largest k for which psi_k + lead_k is positive.
+    the root is reached. Sorting would give the same result. If the v_i are sorted in descending order and only the
+    first k teeth are loaded, the rotation is psi_k = (1 - sum_1..k v_i)/k. The root is the psi_k with the largest k for
+    which psi_k + v_k is positive.
     """
     psi = _crossing(ahead, highest, start)
     following = _crossing(ahead, highest, psi)

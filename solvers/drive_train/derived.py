@@ -36,7 +36,7 @@ class DerivedShaft:
 
 @record
 class DerivedCoupling:
-    """The values used for a coupling: for the coupling itself, for the oil at its teeth, and for the teeth."""
+    """The proportions of a coupling, the viscosity of the oil at its teeth, and the axial tooth stiffness, as used."""
 
     coupling: Coupling = quantity("proportions used")
     viscosity: float = quantity("oil viscosity used", "η", unit="pa_s", text="at the teeth")

@@ -1,4 +1,4 @@
-"""Load distribution, thermal contact and scuffing: Xue, Zhang and Wang 2020, and examples of gears in standards."""
+"""Load distribution, thermal contact and scuffing: Xue, Zhang and Wang 2020, and gear pairs from two standards."""
 
 from functools import partial
 

@@ -110,7 +110,10 @@ class _Demand:
 
 
 def _scan(demands: list[_Demand], top: float) -> list[float]:
-    """Scan from the search limit down to a speed at which nothing chokes; return the speeds in ascending order."""
+    """Scan from the search limit down to a speed at which nothing chokes.
+
+    Return the logarithms of all speeds of the scan, in ascending order. `top` is the logarithm of the search limit.
+    """
     speeds = [top]
     while any(max(demand.radial(speeds[-1]), demand.axial(speeds[-1])) >= 0.0 for demand in demands):
         if len(speeds) > _STEPS_DOWN:

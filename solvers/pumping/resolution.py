@@ -203,11 +203,12 @@ def _reaches(gas: Gas, grids: Grids) -> dict[str, float]:
 
 
 def _mach_reach(fine: SpaceFlow, half: SpaceFlow) -> float:
-    """Estimate the value that the largest Mach number of all ends and slices may reach with more slices.
+    """Estimate how large the Mach number may become if the space is divided into more slices.
 
-    The Mach number of a choked end is 1 on every grid. As the slices get shorter, the Mach number of the slices beside
-    an end tends to the Mach number of the end. With more slices, the Mach number of a slice may exceed the Mach number
-    of the end; the estimate includes such slices.
+    The estimate is for the largest Mach number in the slices and at the ends of the space. The Mach number of a choked
+    end is 1 on every grid. As the slices get shorter, the Mach number in the slices beside an end approaches the Mach
+    number of the end. The Mach number in a slice may also rise above the Mach number of the end. The estimate takes
+    this into account.
     """
     slices, end = float(fine.peak_mach.max()), fine.largest_mach
     if slices == end:

@@ -97,8 +97,9 @@ def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) ->
     y : ndarray
         Distances from the end that meshes first [m].
     substeps : int, optional
-        Number of substeps per step between roll positions. Substeps are used only if some line is loaded over a part of
-        its length. In this case the load at a place of the face may begin or end between two roll positions.
+        Number of substeps per step between roll positions. Substeps are used only if at least one contact line
+        is loaded over only a part of its length. The load at a place of the face may then begin or end between two roll
+        positions.
 
     Returns
     -------

@@ -119,7 +119,15 @@ def relief_notices(path: PathOfContact, modifications: Modifications) -> list[No
 
 
 def load_notices(balance: LoadBalance) -> list[Notice]:
-    """Return warnings if the load is missing or light, if the contact is too wide, or if the pressure has no limit."""
+    """Return the warnings about the load, the width of the contact and the loaded path.
+
+    There is a warning for each of these conditions:
+
+    - There is no load.
+    - The load is so small that it is interpolated only roughly.
+    - The loaded path reaches a base circle, where the pressure has no maximum.
+    - The contact is too wide for the compliance law.
+    """
     notices = []
     if balance.force == 0.0:
         message = "no torque presses the flanks together; only the kinematic transmission error is computed"

@@ -237,7 +237,10 @@ class StudyPage(ABC):
         return control_at((OUTPUT, *self.declared()), path)
 
     def view(self, below: str) -> str:
-        """Return the address of this page, with `below` appended to its path for a file, a figure or the report."""
+        """Return the address of a file, a figure or the report of this page.
+
+        `below` is appended to the path of this page. If `below` is empty, return the address of the page itself.
+        """
         kept = control_names() | {"theme", *FILE_NAMES}
         views = {name: text for name, text in self.views.items() if name in kept}
         return link(f"{self.asked.path}/{self.link.name}{below}", self.asked.pairs, **views, sources=SHORT_SOURCES)

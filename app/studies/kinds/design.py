@@ -1,7 +1,7 @@
 """Design: some inputs of a gear unit are varied, and the values with the best result in the worst case are sought.
 
-On the page of the study, the varied inputs are the flank correction. The page shows the best correction as a sheet for
-the grinder, and it shows the course of the search.
+A request may name any inputs. The page of the study varies only the inputs of the flank correction. The page shows the
+best correction as a sheet for the grinder, and it shows the course of the search.
 """
 
 from collections.abc import Sequence
@@ -297,7 +297,10 @@ def next_place(start: Sequence[float], told: Sequence[list[float] | None], most:
     evaluated = {_name(np.array(start)): np.array(first) / scale}
 
     def scaled(place: FloatArray) -> FloatArray:
-        """Return the scaled objectives at a point. The last item of `place` is the level, not a coordinate."""
+        """Return the scaled objectives at a point.
+
+        `place` holds the coordinates of the point, and behind them the level, which has no effect here.
+        """
         name = _name(place[:-1])
         if name not in evaluated:
             if len(evaluated) == len(told):

@@ -186,12 +186,16 @@ class Spectrum(Study):
 
     Each machine runs every case. The worst case of the machine is compared with the limits.
 
-    For each limit, the last line has the probability of exceeding the limit, with the 90 % confidence interval of this
-    probability. The last line has this probability over the spectrum, and also the probability in each case alone. For
-    each limit and each case, the last line also has the share of machines for which this case is the worst case
-    (`decides`). For each limit and each field that scatters, the last line has the rank correlation between this field
-    and the output in the worst case. For each output, the last line has the mean over the operating time, the extremes,
-    and the 5, 50 and 95 % quantiles in each case.
+    The last line of the answer has these results:
+
+    - for each limit, the probability that a machine exceeds the limit in its worst case, with the 90 % confidence
+      interval
+    - for each limit and each case, the probability of exceeding the limit if the machine runs only this case
+    - for each limit and each case, the share of machines for which this case is the worst case (`decides`)
+    - for each limit and each field that scatters, the rank correlation between the field and the output in the worst
+      case
+    - for each output, the mean over the operating time, and the extremes over all machines and cases
+    - for each output and each case, the 5, 50 and 95 % quantiles
 
     Machines without a solution in some case are counted. If there are such machines, only the `bounds` of the
     probability are known. If no output needs the thermal film, the film is not calculated. A line `progress` comes

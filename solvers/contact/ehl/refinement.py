@@ -1,8 +1,8 @@
 """Accuracy of a finished contact: estimated error due to the mesh, and independent check of the temperatures.
 
-The error due to the mesh is estimated from a solution on half as many nodes. The check of the temperatures calls no
-function of the solution. This check uses reported values only: curves, field and inputs in SI units. The check has
-three parts. The temperature of each surface must equal the bulk temperature of the surface plus the rise due to the
+The error due to the mesh is estimated from a solution on half as many nodes. The check of the temperatures calls none
+of the functions that solve the contact. It uses reported values only: curves, field and inputs in SI units. The check
+has three parts. The temperature of each surface must equal the bulk temperature of the surface plus the rise due to the
 heat flux into the surface. Oil that enters must have the inlet temperature. The film may be colder than the lowest bulk
 or inlet temperature, but only by the amount that the decompression of the oil explains.
 """

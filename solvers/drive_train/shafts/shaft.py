@@ -1,10 +1,10 @@
 """Shafts in two bearings: displacements of the nodes under nodal loads, by statics and strain energy.
 
 A shaft in two bearings is statically determinate, that is, shear force V and bending moment M of every element follow
-from the loads alone. Between nodes V is constant and M is linear. The flexibility is the second derivative of the
-strain energy int [M^2 / (2 E I) + V^2 / (2 kappa G A)] dz of Timoshenko's beam. The flexibility is exact for stepped
-cylinders under nodal loads. The flexibility is symmetric and positive semidefinite by construction, even if elements
-are very short.
+from the loads alone. Between nodes V is constant and M is linear. The strain energy of Timoshenko's beam is
+int [M^2 / (2 E I) + V^2 / (2 kappa G A)] dz. The flexibility is the second derivative of this energy with respect to
+the nodal loads. The flexibility is exact for stepped cylinders under nodal loads. The flexibility is symmetric and
+positive semidefinite by construction, even if elements are very short.
 """
 
 from dataclasses import dataclass

@@ -145,9 +145,10 @@ def thrust_budget(
 
 
 def _use(lower: float | None, upper: float | None, ultimate: float | None) -> float | None:
-    """Return the largest load on the thrust bearing divided by the usable half of the bearing's rating.
+    """Return the largest load on the thrust bearing divided by the permissible load of the bearing.
 
-    Return None if the rating is not given or if there is no thrust bearing.
+    The permissible load is half of the ultimate rating `ultimate`. Return None if the rating is not given or if there
+    is no thrust bearing.
     """
     if lower is None or upper is None or ultimate is None:
         return None

@@ -1,6 +1,7 @@
 """March of the pocket chain of Milian et al. (Eqs. 2-7) through the strokes of its pockets.
 
-The computed pressures depend on the number of pockets. In this model, the number of pockets is a constant.
+The computed pressures change with the number of pockets. This number is therefore a constant of the model and is not
+increased to refine the solution.
 """
 
 from math import ceil

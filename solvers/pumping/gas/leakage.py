@@ -145,9 +145,9 @@ def _is_settled(change: float, content: float, drop: float) -> bool:
     """Return whether the error of the flux is within tolerance after a Newton step.
 
     The step has changed the `content` of the cell [kg/m] by `change` [kg/m]. `drop` is the relative pressure drop.
-    The linearised law leaves out the second derivative. Therefore the relative error of the flux is about
-    f (change / content)^2 / drop, where the factor f lies between 1 and 2. This factor depends on how steeply the
-    pressure and the density of the cell fall when the cell loses gas.
+    Newton's method uses the linearised law of the flux, which leaves out the second derivative. The resulting relative
+    error of the flux is about f (change / content)^2 / drop, where the factor f lies between 1 and 2. This factor
+    depends on how steeply the pressure and the density of the cell fall when the cell loses gas.
     """
     return 2.0 * change**2 <= _TOLERANCE * content**2 * max(drop, 0.0)
 

@@ -1,9 +1,10 @@
 """Free area and radial clearances of a tooth space at one angle, by closed forms.
 
-A space has a left and a right side. Each side is closed by its narrowest section, the shortest line between the profile
-of the space and the mate's tooth. The length of this line is the clearance. The line ends at two feet: a point of the
-space (radius [m], half angle [rad]) and a point of the mate (roll length [m]). The right side at (angle, mate's angle)
-is the mirror image of the left side at (-angle, -mate's angle). The owner is the gear to which the space belongs.
+The owner is the gear to which the space belongs. A space has a left and a right side. Each side is closed by its
+narrowest section, which is the shortest line between the profile of the space and the mate's tooth. The length of this
+line is the clearance. The line ends at two feet: a point of the space (radius [m], half angle [rad]) and a point of the
+mate (roll length [m]). The right side at (angle, mate's angle) is the mirror image of the left side at
+(-angle, -mate's angle).
 """
 
 from typing import NamedTuple
@@ -44,7 +45,7 @@ def _area_part(space: ToothSpace, own_x: float, own_y: float, mate_x: float, mat
 def _close(
     space: ToothSpace, angle: float, mate_angle: float, own_radius: float, own_half_angle: float, mate_roll: float
 ) -> float:
-    """Compute the area [m^2] between the owner's axis and the upper boundary of a side.
+    """Compute the area [m^2] between the owner's axis and the upper boundary of a side; see `_area_part`.
 
     `own_radius` [m] and `own_half_angle` [rad] give the foot of the section on the space; `mate_roll` [m] gives the
     foot of the section on the mate.

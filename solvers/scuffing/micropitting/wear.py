@@ -88,8 +88,8 @@ def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
 class _Largest(NamedTuple):
     """Largest depth of wear [m] on a flank, and the place of this depth.
 
-    `psi` is the fraction of the path from A, and `face` is the distance from the end that meshes first [m]. All values
-    are None if the depth has no limit.
+    `psi` is the fraction of the path from A, and `face` is the distance from the end that meshes first [m]. If the
+    loaded path reaches a base circle, the depth has no maximum there, and all values are None.
     """
 
     value: float | None
