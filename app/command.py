@@ -134,7 +134,7 @@ def _print_json(content: dict[str, Any]) -> None:
     """Print JSON. Use escapes if the standard output cannot encode a character.
 
     If printing fails because the reader of a pipe has closed the pipe, continue. If printing fails for any other
-    reason, exit with this reason.
+    reason, end the program with a message about this reason.
     """
     text = json.dumps(content, indent=1, ensure_ascii=False)
     try:

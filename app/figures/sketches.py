@@ -68,7 +68,7 @@ def points_of_contact(path: PathOfContact) -> dict[str, float]:
     """Return the roll lengths [m] of the points A to E of the path of contact, measured on the pinion.
 
     A and E are the ends of the path. B lies one transverse base pitch before E, and D lies one transverse base pitch
-    behind A. C is the pitch point. If the contact ratio is at most 2, a transverse section has a single pair of teeth
+    after A. C is the pitch point. If the contact ratio is at most 2, a transverse section has a single pair of teeth
     in contact between B and D. Points that are not on the path are left out.
     """
     pitch = path.pair.transverse_base_pitch

@@ -86,10 +86,10 @@ def split_views(pairs: Pairs) -> tuple[Pairs, dict[str, str]]:
 
 
 def from_form(model: type[Documented], pairs: Pairs) -> Pairs:
-    """Return the fields of a form or of a link, with the texts that these fields have in a link.
+    """Return the fields of a form or of a link as fields of a link.
 
-    If the fields come from a form, the texts that a user typed are converted. The texts that the server wrote into the
-    form are unchanged. If the fields come from a link, all texts are unchanged.
+    If the fields come from a form, the texts that a user typed are converted into texts for a link. The texts that the
+    server wrote into the form are unchanged. If the fields come from a link, all texts are unchanged.
     """
     written = next((text for name, text in pairs if name == WRITTEN), None)
     if written is None:

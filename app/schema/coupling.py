@@ -187,8 +187,8 @@ class RecommendationRequest(_CouplingRequest):
     def unused(self) -> dict[str, bool]:
         """Mark two inputs as unused in addition to the inputs that the base class marks.
 
-        The two inputs are the factor of the simple thrust model and the coefficient of friction at rest. Both only
-        affect results at a single operating point.
+        The two inputs are the factor of the simple thrust model and the coefficient of friction at rest. Only the
+        calculation of a coupling at one operating point uses these two inputs.
         """
         return super().unused() | {"model.simple_thrust_factor": True, "friction.static_coefficient": True}
 

@@ -553,9 +553,9 @@ class DriveTrainDerived(MeshDerived, of=derived.Derived):
 
 
 class MisalignmentParts(Group, of=results.Parts):
-    """Contributions to the slope of the gap that the shafts cause over the face, one contribution per cause.
+    """Parts of the slope of the gap due to the shafts: one part per cause, such as bending or torsion.
 
-    The contributions are computed for the load distribution at the end of the iteration between shafts and mesh.
+    The parts are computed for the load distribution at the end of the iteration between shafts and mesh.
     """
 
     member_unit: ClassVar = "um"

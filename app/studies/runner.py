@@ -212,9 +212,9 @@ class Study(ABC):
         """
 
     def encoder(self, _: str) -> Callable[[Line], bytes]:
-        """Return the function that converts a line into bytes in the requested format. Here, every format is JSON.
+        """Return the function that converts a line into bytes in the requested format.
 
-        Subclasses with further formats override this method.
+        In this class the function always writes JSON. Subclasses with further formats override this method.
         """
         return json_line
 

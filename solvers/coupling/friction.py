@@ -221,9 +221,10 @@ def uniform_self_induced_thrust(coupling: Coupling, torque: float, friction: flo
 
 
 def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float) -> AxialThrust:
-    """Compute the axial thrust, its limits and its closed forms.
+    """Compute the axial thrust with its lower and upper bounds, and other thrusts for comparison.
 
-    The thrust is that of one mesh, or that of two meshes on one sleeve.
+    The axial thrust is that of one mesh, or that of two meshes on one sleeve. The thrusts for comparison are the thrust
+    of sliding coaxial shafts, the breakaway thrust, the customary thrust, and the thrusts by closed forms.
     """
     coupling, operation = inputs.coupling, inputs.operation
     limit = coaxial_limit(coupling, operation.torque, friction)
@@ -253,9 +254,10 @@ def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh,
 def self_induced_thrust(inputs: CouplingInputs, geometry: Geometry, friction: float) -> SelfInducedThrust:
     """Compute the thrust of two meshes without axial velocity, and the closed forms of this thrust.
 
-    One closed form holds for one pair of opposite teeth per mesh, the other for equal loads on all teeth. In the
-    angular arrangement both closed forms are zero: the moments of friction in the two meshes are opposite, so that the
-    sleeve requires no lateral force at the teeth. The only explanation in the paper is "for reasons of symmetry".
+    One closed form assumes that only one pair of opposite teeth per mesh carries load. The other closed form assumes
+    equal loads on all teeth. In the angular arrangement both closed forms are zero: the moments of friction in the two
+    meshes are opposite, so that the sleeve requires no lateral force at the teeth. The paper says only that the
+    thrust is zero "for reasons of symmetry".
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     equilibrium = sleeve_equilibrium(inputs, geometry, friction, 0.0)

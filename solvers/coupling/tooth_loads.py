@@ -244,10 +244,10 @@ def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
 def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: float) -> tuple[float, float]:
     """Compute the first and the second derivative of the energy along a step, at one length of the step.
 
-    The energy is differentiated with respect to the length. A step of length 1 changes u_i by `change`. `start` is the
-    first derivative at length zero. The function computes how much the first derivative changes between length zero and
-    `length`, and adds this change to `start`. A direct sum of torque and tooth forces would lose its digits by
-    cancellation near the balance.
+    The energy is differentiated with respect to the length. `ahead` holds the interferences u_i of the teeth at length
+    zero, and `start` is the first derivative at length zero. A step of length 1 changes the interferences by `change`.
+    The function computes how much the first derivative changes between length zero and `length`, and adds this change
+    to `start`. A direct sum of torque and tooth forces would lose its digits by cancellation near the balance.
     """
     first, second = start, 0.0
     for i in range(ahead.size):

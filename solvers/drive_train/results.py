@@ -102,7 +102,11 @@ class Misalignment:
 
 @record
 class FaceLoad:
-    """The load over the face: face load factor, largest values, and the peak-to-peak transmission error."""
+    """The load over the face, and the peak-to-peak transmission error.
+
+    The load over the face is described by the face load factor, the place of the largest face load, the largest line
+    load, the largest Hertzian pressure, and the share of the flank under load.
+    """
 
     face_load_factor: float | None = quantity(
         "face load factor", "K_Hβ", ISO_6336, text="largest over mean load across the face"

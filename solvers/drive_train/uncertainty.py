@@ -1,6 +1,6 @@
 """Uncertain inputs of a gear unit, and the values between which these inputs are expected to lie.
 
-The combinations of these values are the corners of the unit.
+A combination of one value per uncertain input is called a corner of the unit.
 """
 
 from collections.abc import Callable

@@ -275,7 +275,7 @@ def _sections_between(
 
 
 def _radii_beside(shaft: Shaft, face: tuple[float, float]) -> tuple[float, float]:
-    """Return the radii of the shaft beside both ends of the face [m]; 0 if the shaft ends there."""
+    """Return the radius [m] of the shaft next to each end of the face; 0 if the shaft ends at this end of the face."""
     below = [outer / 2 for start, end, outer, _ in _places(shaft) if start < face[0] - SHORTEST_ROD <= end]
     above = [outer / 2 for start, end, outer, _ in _places(shaft) if start <= face[1] + SHORTEST_ROD < end]
     return max(below, default=0.0), max(above, default=0.0)

@@ -129,9 +129,9 @@ def coarser_flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int, 
     """Compute the stroke of `flow_at` at a resolution that is `times` times lower.
 
     Gas dynamics gets fewer slices, and also fewer recorded angles, so that its steps can be longer: a step ends at the
-    next recorded angle at the latest. The pocket chain gets fewer steps, because the number of pockets is a constant of
-    the model. The incompressible model gets fewer positions. Raises the errors of `flow_at` except too_many_steps and
-    narrow_land.
+    next recorded angle at the latest. The pocket chain gets fewer steps, but not fewer pockets, because the number of
+    pockets is a constant of the model. The incompressible model gets fewer positions. Raises the errors of `flow_at`
+    except too_many_steps and narrow_land.
     """
     if mesh.setup.model.flow is Flow.INCOMPRESSIBLE:
         return _single_pocket(mesh, space, pinion_speed, space.table.coarser(times))

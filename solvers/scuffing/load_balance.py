@@ -330,8 +330,8 @@ def _settle(
     `at` contains phase and side of the roll position. The start value `error` is the TE [m] of slices that cover whole
     lines. Every pass determines the parts of the lines that are loaded at the TE of the previous pass. The pass cuts
     only these parts into slices, and solves the balance again. The load is zero at the ends of a loaded part. An error
-    of TE in one pass therefore causes only a second-order error in the next pass. Returns the cover, TE [m], the
-    relative residual, and the number of steps.
+    of TE in one pass therefore causes only a second-order error in the next pass. Returns the `Cover` of the slices in
+    the last pass, TE [m], the relative residual, and the number of steps.
     """
     covers, steps, settled = 0, 0.0, False
     phase, side = at

@@ -177,7 +177,8 @@ def stiffness(
 ) -> Stiffness:
     """Return the stiffness of the mesh, and the stiffness of one pair of teeth along the path.
 
-    The stiffness of one pair is the secant stiffness at the mean line load [N/m], or at `REFERENCE_LOAD` without load.
+    The stiffness of one pair is the secant stiffness at the mean line load `mean_load` [N/m]. If this load is 0, the
+    secant stiffness at the line load `REFERENCE_LOAD` is returned instead.
     """
     secant_load = mean_load if mean_load > 0.0 else REFERENCE_LOAD
     single = single_stiffness(balance.mesh.compliance, secant_load)

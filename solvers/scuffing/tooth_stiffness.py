@@ -421,13 +421,14 @@ def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid)
 
 
 def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tuple[FloatArray, float, float]:
-    """Return the offset [1/Pa] and the slope [1/Pa] of the half-space contact, and its least contribution to omega.
+    """Return offset [1/Pa] and slope [1/Pa] of the half-space contact, and the contact's least contribution to omega.
 
     Johnson (1985) and Weber state the compliance of the half-spaces:
     delta_H / w = sum_i (1 - nu_i^2)/(pi E_i) [2 ln(2 d_i / b_H) - nu_i/(1 - nu_i)],  b_H^2 = 8 w R_n/(pi E').
-    As a function of the load w, this compliance is offset - slope ln w. The contribution of the contact to omega is
-    therefore offset / slope - ln w, which decreases as the load increases. The contribution is least when the half
-    width b_H of the contact is half the depth d_i of the half-space.
+    As a function of the load w, this compliance is offset - slope ln w. The docstring of this module explains omega.
+    The contribution of the contact to omega is the compliance divided by the slope, which is offset / slope - ln w.
+    This contribution decreases as the load increases. The least contribution is computed with d_i = `SHALLOWEST` b_H
+    for both gears.
     """
     modulus = reduced_modulus(members[0].material, members[1].material)
     radius = np.maximum(reduced_radius(path.plane, x), LEAST_RADIUS * path.pair.inputs.normal_module)
@@ -533,7 +534,8 @@ def line_load_near(
 def _secants(constant: FloatArray, limit: FloatArray, logarithmic: float, load: float) -> FloatArray:
     """Return the stiffness 1 / (a omega) [Pa] at every table point under the line load `load` [N/m].
 
-    Under loads larger than the load at the approach `limit`, omega keeps the value that belongs to `limit`.
+    The docstring of this module explains a and omega; a is `logarithmic`. If the load causes an approach greater than
+    `limit`, omega keeps the value that omega has at the approach `limit`.
     """
     stiffness = np.empty(constant.size)
     for i in range(constant.size):

@@ -223,7 +223,10 @@ def _draw_dots(axes: Axes, place: int, row: Row) -> None:
 
 
 def _draw_row(axes: Axes, place: int, row: Row) -> None:
-    """Draw a row as one bar, or as parts end to end. Also draw a line between the bounds of the row's value."""
+    """Draw a row as one bar. If the row has parts, draw one bar per part, end to end.
+
+    If the value of the row has bounds, also draw a line from the lower to the upper bound.
+    """
     left = 0.0
     for part in row.parts or [replace(row, name="", value=float(np.nan_to_num(row.value)))]:
         label = fill(part.name, NAME_LENGTH)

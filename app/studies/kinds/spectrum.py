@@ -105,7 +105,7 @@ class LoadCase(Part):
 
 
 class Tolerances(Part):
-    """The distributions of the fields that differ between machines, and the number of machines that are drawn."""
+    """The distributions of the fields that differ between machines, and the size of the sample of machines."""
 
     method: Annotated[Method, METHOD] = "sobol"
     count: Annotated[int, COUNT] = 128
@@ -791,8 +791,8 @@ class SpectrumPage(StudyPage):
     def controls(self) -> tuple[Controls, ...]:
         """Return a group of form fields for the table of cases, and one group per tolerance.
 
-        Two groups for empty tolerances follow the group of the last tolerance that is filled in. But there are never
-        more groups than names in `TOLERANCES`.
+        After the group of the last tolerance that is filled in, there are two empty groups for further tolerances. The
+        number of groups for tolerances is limited to the number of names in `TOLERANCES`.
         """
         case = self.case
         text = as_typed(self.views.get("cases", "")) or _suggested(self.calculation, case)

@@ -158,9 +158,9 @@ def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray
 class Comparison:
     """Results of a contact (`fine`), and of the same contact on half as many nodes (`coarse`).
 
-    `fine` and `coarse` are dictionaries. Their keys are the names of the errors in `MeshError`. Each value is a tuple
-    of parts; the sum of the parts is the result of the contact. `fall` is the steepest fall of P from one node to the
-    next. `kinks` holds the result of `_kink` for each surface [K].
+    `fine` and `coarse` are dictionaries with one entry per result. The key is the name of the result, as in
+    `MeshError`. The value is a tuple of parts; the sum of the parts is the result. `fall` is the steepest fall of P
+    from one node to the next. `kinks` holds the value of `_kink` for each surface [K].
     """
 
     fine: dict[str, tuple[float, ...]]

@@ -80,9 +80,9 @@ def last_reverse(convection: Convection) -> int:
 
 @inlined_kernel
 def _relax_column(i: int, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray) -> None:
-    """Compute the temperature step of column i, including `given`.
+    """Solve the linearised heat balance of column i for the temperature step, and add `given` to this step.
 
-    The step follows from the latest steps of both neighbouring columns and from the changes of both surfaces.
+    The heat balance contains the latest steps of both neighbouring columns and the changes of both surfaces.
     `temperature_step` explains `given` and `weight`.
     """
     from_left, from_right, residual = heat.convection.from_left, heat.convection.from_right, heat.column.residual

@@ -235,7 +235,10 @@ def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
 
 
 def _sizes(tilts: FloatArray) -> FloatArray:
-    """Return the scales of all tilt components [rad]. Both components of a tilt have the size of this tilt as scale."""
+    """Return the scales of all tilt components [rad].
+
+    Both components of a tilt have the same scale: the magnitude of this tilt, or `LEAST_SIZE` if the tilt is smaller.
+    """
     return np.repeat(np.maximum(np.hypot(tilts[::2], tilts[1::2]), LEAST_SIZE), 2)
 
 

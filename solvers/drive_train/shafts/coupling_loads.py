@@ -192,9 +192,10 @@ def elastic_plastic(ratio: float) -> tuple[float, float]:
 
 
 def regularised(ratio: float) -> tuple[float, float]:
-    """Return loss moment and elastic moment like `elastic_plastic`, but for teeth that slide unless the tilt is tiny.
+    """Return loss moment and elastic moment of a hub whose teeth slide at any tilt; the elastic moment is 0.
 
-    This friction law is for comparison only.
+    Both moments are divided by the friction moment of full sliding. The loss moment rises smoothly with the tilt. This
+    friction law is for comparison only.
     """
     return ratio / sqrt(ratio**2 + 1), 0.0
 

@@ -318,7 +318,7 @@ def _exchange(
 
 @kernel
 def _add_outflow(balance: Any, share: float, passage: Passage) -> None:
-    """Add the flow out of a pocket through the upper face of the pocket to the balance of this pocket."""
+    """Add the outflow through the upper face of a pocket to the balance of this pocket."""
     balance.residual += share * passage.flow
     _add(balance.diagonal, share, passage.by_left_pressure, passage.by_left_mass)
     _add(balance.upper, share, passage.by_right_pressure, passage.by_right_mass)

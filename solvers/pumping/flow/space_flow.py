@@ -44,9 +44,9 @@ class Record(NamedTuple):
     """Arrays of records that are filled while a duct is marched through its stroke.
 
     `field` (angles, cells) contains records of FIELD. `profile` (cells,) contains records of PROFILE. `extremes` (1,)
-    contains one record of EXTREMES. `mass` (1,) and `energy` (1,) contain one record of BALANCE each. `ends` (steps,)
-    contains records of ENDS. The record in `energy` has one more field: `work` is the work on the gas by pressures
-    above ambient pressure [J].
+    contains one record of EXTREMES. `mass` (1,) contains one record of BALANCE. `energy` (1,) contains one record with
+    the fields of BALANCE and the additional field `work`, the work on the gas by pressures above ambient pressure [J].
+    `ends` (steps,) contains records of ENDS.
     """
 
     field: RecordArray

@@ -73,10 +73,10 @@ def _steps(gas: Gas, part: Duct, angle: FloatArray) -> float:
 def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record, order: int) -> int:
     """March from the first to the last of the `angles` [rad]; return the number of steps, or a negative number.
 
-    A step never passes one of the angles. Steps are as long as the waves allow; the last step before an angle covers
-    the remaining turn. If a small change of the step length makes an additional step necessary, the additional step is
-    very short. Results therefore depend continuously on the step length. The result is -1 if the record has no room for
-    more steps, and -2 if no step length gives a physical state.
+    Steps are as long as the waves allow, but a step never passes one of the angles: the last step before an angle ends
+    at this angle. If slightly shorter steps make an additional step necessary, this additional step is very short.
+    Results therefore depend continuously on the step length. The result is -1 if the record has no room for more steps,
+    and -2 if no step length gives a physical state.
     """
     angle, taken, low, high = angles[0], 0, 0, 0
     for k in range(1, angles.size):

@@ -152,7 +152,7 @@ def from_mate(
 
 @kernel
 def from_own(space: ToothSpace, angle: float, mate_angle: float, roll: float) -> tuple[float, float]:
-    """Find the point of the mate's flank that is nearest to the space's flank at the roll length `roll`.
+    """Find the point of the mate's flank nearest to the point of the space's flank at the roll length `roll`.
 
     Returns the values of `foot_on_mate`.
     """

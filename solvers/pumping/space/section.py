@@ -62,9 +62,10 @@ def _close(
 def _corner_section(space: ToothSpace, angle: float, mate_angle: float) -> tuple[float, float, float, float, float]:
     """Find the section between a tip corner and the other gear.
 
-    With contact gaps, the tip corner that is nearer to the other gear counts; with tip gaps, the mate's tip corner
-    counts. Returns the clearance [m]; radius [m] and half angle [rad] of the foot on the space; the area between the
-    owner's axis and the profile up to this foot [m^2]; and the roll length of the foot on the mate [m].
+    If the model has contact gaps, the section starts at the tip corner that is nearer to the other gear. If the model
+    has tip gaps, the section starts at the mate's tip corner. One foot of the section lies on the space, and the other
+    foot lies on the mate. Returns the clearance [m]; radius [m] and half angle [rad] of the foot on the space; the area
+    between the owner's axis and the profile up to this foot [m^2]; and the roll length of the foot on the mate [m].
     """
     clearance, r, psi, below = from_mate(space, angle, mate_angle, space.mate_tip_roll)
     foot = space.mate_tip_roll
@@ -117,14 +118,14 @@ def _carried(space: ToothSpace, roll: float, gap: float) -> float:
 
 @kernel
 def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tuple[float, float, float]:
-    """Compute area [m^2] and clearance [m] of a side, and the area [m^2] of gas carried through its section.
+    """Compute area [m^2] and clearance [m] of a side, and the area [m^2] of gas carried through the side's section.
 
     Flanks that face each other close the space on the line of action, where they are `gap` [m] apart. If the gap is 0,
-    the involutes are used down to the base circles even if the gear is undercut. The path of contact is computed in the
-    same way.
+    the involutes are used down to the base circles even if the gear is undercut. The calculation of the path of contact
+    also uses the involutes down to the base circles.
     If the gap is wide, a tip corner may be closer to the other gear (for example to the root fillet) than the flanks
-    are to each other. The clearance is then the distance between the tip corner and the other gear. The section that
-    bounds the area stays on the line of action even in this case.
+    are to each other. The clearance is then the distance between the tip corner and the other gear, but the section
+    that bounds the area stays on the line of action.
     """
     roll = space.pitch_roll + space.base_radius * (angle - space.pitch_half_angle)
     mate_roll = space.line_of_action - roll - gap

@@ -224,7 +224,7 @@ def formula_film(inputs: ScuffingInputs) -> ContactFunction:
 
 
 def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return the highest of `peak` and the values on certain lines of the flank.
+    """Return `peak`, or the highest point on certain lines of the flank if this point is higher than `peak`.
 
     These lines are the feature line of the pair and the lines that `_or_beside` searches.
     """
