@@ -397,7 +397,7 @@ class Tribodrive(_Endpoints[Json, Study]):
 
 
 class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
-    """A client of the service at `url` for asyncio, with the parameters of `Tribodrive`."""
+    """A client of the service for programs that use asyncio. The parameters are those of `Tribodrive`."""
 
     def __init__(self, url: str = ADDRESS, *, patience_s: float = PATIENCE_S, **options: Any) -> None:
         self._http = httpx.AsyncClient(base_url=url, **OPTIONS | options)

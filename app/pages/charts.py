@@ -119,7 +119,7 @@ def _pixels(figure: Figure) -> tuple[int, int]:
 
 
 def data_address(figure: Figure, theme: ThemeName = "light") -> str:
-    """Return a data address that holds the image of a figure."""
+    """Return an address of the scheme `data:` that contains the image of a figure."""
     return "data:image/svg+xml;base64," + base64.b64encode(written(figure, "svg", theme)).decode()
 
 

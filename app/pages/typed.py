@@ -130,7 +130,10 @@ def scaled(value: Any, power: int) -> Any:
 
 
 def as_typed(text: str) -> str:
-    """Return the text as it was typed, without the question marks of doubtful numbers."""
+    """Remove the marks of doubtful numbers from a text in a link.
+
+    In a link, a question mark follows each doubtful number.
+    """
 
     def unmarked(item: str) -> str:
         return item.removesuffix(DOUBT) if question(item) else item

@@ -114,7 +114,7 @@ class CouplingFriction(Section, of=si.Friction):
 
 
 class CouplingModel(Section, of=si.ModelOptions):
-    """Choices that the paper leaves open in the coupling model."""
+    """Choices in the coupling model. The paper leaves these choices open."""
 
 
 class _CouplingRequest(Request):

@@ -178,7 +178,7 @@ def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: floa
     friction : float
         Coefficient of friction [-].
     factor : float
-        Ratio kappa of the difference of normal forces to the lateral force [-].
+        Factor kappa: the difference between the normal forces of both teeth, divided by the lateral force [-].
 
     Returns
     -------

@@ -140,8 +140,11 @@ def mesh_motion(
 
     Notes
     -----
-    Eqs. C3, C5. Here delta is the tilt angle, eps is the crowning ratio and n is the flank normal. With `spatial`
-    kinematics s_1 = R_e delta n_x. If `side` is +1,
+    Eqs. C3, C5. The contact position is s_1, and the tangential displacement is f_t. Here phi is the tooth angle, delta
+    is the tilt angle, eps is the crowning ratio, alpha is the pressure angle, and n is the flank normal. The radii r_o,
+    R_e and R_t are those of `Geometry`.
+
+    With `spatial` kinematics s_1 = R_e delta n_x. If `side` is +1,
     f_t = r_o delta^2/(2 cos alpha) sin(phi - alpha) [eps sin(phi - alpha)/sin alpha + cos phi]. If `side` is -1,
     pi - phi takes the place of phi in this formula. The formulas are exact to leading order in delta, as a numerical
     calculation with exact involutes has confirmed.
@@ -233,8 +236,9 @@ def hydrodynamic_velocity(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray
 
     Notes
     -----
-    Eq. C6. The contact moves with the velocity s_1' on the hub flank and with s_1' + v_G on the sleeve flank. The
-    constant 2.447 in the load capacity applies to the sum of both velocities, not to the mean of both.
+    Eq. C6. Let s_1' be the rate of change of the contact position s_1, and let v_G be the sliding velocity. The contact
+    moves with the velocity s_1' on the hub flank, and with the velocity s_1' + v_G on the sleeve flank. The constant
+    2.447 in the load capacity applies to the sum of both velocities, not to the mean of both.
     """
     contact_velocity = mesh.speed * (mesh.travel_sin * teeth.cosine - mesh.travel_cos * teeth.sine)
     return np.abs(2.0 * contact_velocity + mesh.sliding * teeth.sine)

@@ -170,7 +170,11 @@ def starved_load(inlet_ratio: float) -> float:
 
     Notes
     -----
-    Eqs. C15, C16. The Reynolds equation for rigid surfaces and constant viscosity is solved in closed form. At the exit
+    Eqs. C15, C16. The gap is h_0 + x^2/(2 R). Here h_0 is the smallest gap, x is the distance from the smallest gap in
+    the direction of flow, and R is the flank radius R_e. The other symbols in the unit of the load are those of
+    `hydrodynamic_capacity`.
+
+    The Reynolds equation for rigid surfaces and constant viscosity is solved in closed form. At the exit
     x = tan(g) sqrt(2 R h_0), the pressure and its gradient are zero. This condition is
     [A2(g) + A2(g_B)] cos^2 g = A4(g) + A4(g_B), where tan g_B = B. A2(g) and A4(g) are the integrals of cos^2 and cos^4
     from zero to g. Bisection finds g in (0, g_B). The load is W = (1 - H_m/H_B)^2/(4 H_m), where H_m and H_B are the

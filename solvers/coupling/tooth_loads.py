@@ -90,10 +90,11 @@ class Hessian(NamedTuple):
 
 @kernel
 def _crossing(ahead: FloatArray, highest: float, psi: float) -> float:
-    """Return the next value of psi in Newton's method for the equation sum max(0, psi + lead_i) = 1.
+    """Return the next rotation psi in Newton's method for the equation sum max(0, psi + w_i - w_max) = 1.
 
-    Some teeth are loaded at the present value `psi`, which is positive. At the next value, the sum of psi + lead_i over
-    these teeth is 1.
+    `ahead` holds the lead w_i of each tooth, `highest` is the largest lead w_max, and `psi` is the present rotation.
+    The present rotation is positive. The teeth at which psi + w_i - w_max is positive are loaded. At the next rotation,
+    the sum of psi + w_i - w_max over these teeth is 1.
     """
     count, total = 0, 0.0
     for lead in ahead:
@@ -410,7 +411,9 @@ class ToothLoads:
 
 
 def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Compute the leads of the teeth: the interferences without common rotation and without displacement of the sleeve.
+    """Compute the amount by which each tooth is ahead, called the lead of the tooth.
+
+    The lead is the interference of the tooth without common rotation and without displacement of the sleeve.
 
     Parameters
     ----------
@@ -461,7 +464,7 @@ def centred_loads(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, t
     Returns
     -------
     ToothLoads
-        Tooth loads at each rotor angle, exact at any torque [N].
+        Tooth loads at each rotor angle [N]. The loads are exact at any torque.
 
     Notes
     -----

@@ -21,9 +21,10 @@ from solvers.sources import ISO_6336, OCVIRK
 
 @record
 class Parts:
-    """Contributions to the slope of the gap that the shafts cause over the face; one contribution per cause.
+    """Contributions to the slope of the gap over the face; one contribution per cause.
 
-    All contributions are computed at the loads in equilibrium. The mesh force deforms the shafts elastically. This
+    Only the gap due to the shafts is meant, without the gaps due to heat and due to the modifications. All
+    contributions are computed at the loads in equilibrium. The mesh force deforms the shafts elastically. This
     deformation contributes `bending`, `torsion` and `tilting_moment`. The displacements in all bearings under all loads
     contribute `films`. The offsets of the bores contribute `bearing_offsets`. The shafts also bend elastically under
     the loads of the couplings, under the load of the thrust collar and under their weight. This bending contributes

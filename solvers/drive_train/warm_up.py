@@ -217,7 +217,7 @@ def _rotor(shaft: Shaft, material: Solid, solid: float, reference: float) -> flo
 
 
 def _times(course: WarmUp) -> FloatArray:
-    """Return the five points in time of the alignment.
+    """Return the five points in time [s] at which the alignment is computed.
 
     Let t_max be the time at which the temperature difference between the gear bodies is greatest. The points are:
 

@@ -79,7 +79,7 @@ def loaded(misalignment_deg: float) -> float:
 
 @cache
 def _orbit(misalignment_deg: float) -> OrbitResult:
-    """Solve the orbit of the sleeve at 1000 1/s (Fig. 5).
+    """Solve the orbit of the sleeve at a speed of 1000 rad/s (Fig. 5).
 
     The pitch deviations have a first and a third harmonic, both with an amplitude of 2 um.
     """

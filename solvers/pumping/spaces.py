@@ -102,7 +102,7 @@ def _space(setup: PumpingSetup, pair: GearPair, *, of_pinion: bool) -> Space:
 
 
 def face_stretches(setup: PumpingSetup, slices: int) -> list[Stretch]:
-    """Cut the face between its grooves into stretches with enough slices for the flow model."""
+    """Return the stretches of the face between the grooves. Each stretch has enough slices for the flow model."""
     least = LEAST_SLICES if setup.model.flow is Flow.GAS_DYNAMICS else 1
     return stretches(setup.gears.face_width, setup.grooves, slices, least)
 

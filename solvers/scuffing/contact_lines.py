@@ -143,8 +143,8 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
     phase : float
         The x of the line at y = 0 [m].
     side : float
-        Limit that is taken if the line of a spur gear lies at an end of the path: 1 for the limit from above, -1 for
-        the limit from below, 0 for none.
+        If the line of a spur gear lies at an end of the path, 1 selects the neighbouring line at a slightly larger x,
+        -1 selects the neighbouring line at a slightly smaller x, and 0 selects the line itself.
 
     Returns
     -------
@@ -156,9 +156,9 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
     Notes
     -----
     Eq. L3: the line is x = phase - y tan beta_b. The line of a spur gear may lie at an end of the path. Such a line is
-    in contact if `side` selects the limit from inside the path. The line of a helical gear may meet the rectangle at a
-    corner only. Such a line is not in contact. If it were, rounding errors would decide whether it counts when the
-    least gap of the unloaded teeth is determined.
+    in contact if the line that `side` selects lies on the path. The line of a helical gear may meet the rectangle at a
+    corner only. Such a line is not in contact. If such a line were in contact, rounding errors would decide whether the
+    line counts when the least gap of the unloaded teeth is determined.
     """
     if plane.tan_base_helix == 0.0:
         nudged = phase + side * COINCIDENT * plane.base_pitch

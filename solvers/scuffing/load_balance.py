@@ -381,11 +381,12 @@ def _balance(
 def error_at(
     plane: ContactPlane, phase: FloatArray, error: FloatArray, x: float, y: float, index: int
 ) -> tuple[float, int]:
-    """Return TE at the roll position at which a contact line passes through (x, y), and the index of the step there.
+    """Return the transmission error for a point (x, y), and the index of the step in which this error lies.
 
-    A step lies between two neighbouring roll positions of the balance; within a step, TE is interpolated linearly. The
-    search for the step begins at the step `index`. At the end of the path, TE is the value just before the line leaves
-    the path.
+    The transmission error is the error at the roll position at which a contact line passes through the point. A step
+    lies between two neighbouring roll positions of the balance. Within a step, the transmission error is interpolated
+    linearly. The search for the step begins at the step `index`. If the point lies at the end of the path, the
+    transmission error is the value just before the contact line leaves the path.
     """
     line = min(x, plane.path_length * (1.0 - BESIDE)) + y * plane.tan_base_helix
     position = line - int(line / plane.base_pitch) * plane.base_pitch

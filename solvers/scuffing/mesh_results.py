@@ -269,9 +269,10 @@ def friction_loss(
     Notes
     -----
     Eq. L19: P_V = f/p_bt int sum_j int w |u1 - u2| dl dphase with u1 - u2 = (omega_1 + omega_2)(s - s_C), and
-    H_V = P_V / (f P). The sum is taken over the contact lines j, and P is the transmitted power. The load factors are
-    not used for friction power and efficiency, because they raise only the load of the contacts, not the transmitted
-    power.
+    H_V = P_V / (f P). The sum is taken over the contact lines j, and P is the transmitted power. Here p_bt is the
+    transverse base pitch, w is the line load, s is the distance of the contact from the pinion's base tangent point,
+    and s_C is the distance of the pitch point from the pinion's base tangent point. The load factors are not used for
+    friction power and efficiency, because they raise only the load of the contacts, not the transmitted power.
     """
     if balance.force == 0.0:
         return FrictionLoss(friction_coefficient, loss_factor=None, power=0.0, efficiency=None)

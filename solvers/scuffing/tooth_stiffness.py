@@ -412,8 +412,8 @@ def linear_contact_compliance(pinion: Solid, wheel: Solid) -> float:
 def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid) -> Member:
     """Return a gear of the pair, with the bending compliance of the tooth in the selected section.
 
-    `section` is the gear that `section_gear` returns. In this gear, a load point has the same height above the
-    reference circle as in the gear itself.
+    `section` is the gear that `section_gear` returns for `gear`. The bending is computed with the tooth of `section`. A
+    load point has the same height above the reference circle in both gears.
     """
     radius = np.hypot(gear.base_radius, roll_length)
     points = load_points(section, section.reference_radius + radius - gear.reference_radius)

@@ -143,7 +143,7 @@ def _abscissa(figure: Figure) -> float:
 
 
 def _gap(figure: Figure) -> float:
-    """Return the vertical distance [in] between two axes, one above the other."""
+    """Return the vertical distance between two axes that lie one above the other [in]."""
     return _heading(figure) + (EDGE / 2 if _shares_abscissa(figure) else _abscissa(figure))
 
 

@@ -140,9 +140,9 @@ def curve_over_the_flow(inputs: ScuffingInputs, result: Scuffing) -> FlowCurve:
 
 
 def what_the_flow_does(heat: Heat, curve: FlowCurve) -> list[Panel]:
-    """Return panels that show the temperatures of flanks and drained oil over the oil flow.
+    """Return a list with one panel, which shows the temperatures of flanks and drained oil over the oil flow.
 
-    A line shows the flow of the case.
+    A vertical line marks the oil flow of the case.
     """
     flow = curve.flow / UNITS["l_per_min"].scale
     lines = [

@@ -264,9 +264,10 @@ class SensitivityPage(StudyPage):
         return {"endpoint": self.calculation.path, "request": self.asked.body, "outputs": outputs}
 
     def result(self, lines: list[Line]) -> Result:
-        """Return a bar chart and a table of the inputs, with the change of the output by one step of each input.
+        """Return a bar chart and a table of the inputs.
 
-        The input that changes the output most comes first.
+        Chart and table show how much the output changes if an input is changed by one step. The input that changes the
+        output most comes first.
         """
         end, output = lines[-1], self.output
         inputs = {moved["path"]: moved for moved in end["inputs"]}

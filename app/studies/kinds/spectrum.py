@@ -333,7 +333,7 @@ class Spectrum(Study):
 
 
 def evaluated(study: Spectrum, values: FloatArray) -> Line:
-    """Compute the statistical content of the last line from the outputs `[replicate, draw, case, output]`.
+    """Compute the statistics that the last line of the study states, from outputs `[replicate, draw, case, output]`.
 
     This function runs in a worker.
     """
@@ -750,7 +750,10 @@ class SpectrumPage(StudyPage):
         return (*controls, *(Control(name, "tolerances.inputs", sets=False) for name in self._given()[:1]))
 
     def _scatter(self, given: dict[str, Any], where: str) -> dict[str, Any]:
-        """Convert the typed distribution, mean and width of a field into the distribution for the body of the study."""
+        """Convert what the user typed for a tolerance into the distribution for the body of the study.
+
+        `given` holds the path of the field, the name of the distribution, the mean and the width.
+        """
         leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
         about: Any = given.get("mean")
         by: Any = given.get("deviation")

@@ -61,7 +61,11 @@ MOST_REASONS = 6  # largest number of remarks about points on a page; the most f
 
 
 class Sample(Part):
-    """A random sample of points. The fields are distributed uniformly over ranges, or according to distributions."""
+    """A random sample of points.
+
+    If the sample has `ranges`, the values of each field are distributed uniformly over the range of this field. If the
+    sample has `inputs`, the values of each field follow the distribution that is given for this field.
+    """
 
     exactly_one = ("ranges", "inputs")
     method: Annotated[Method, METHOD] = "latin_hypercube"

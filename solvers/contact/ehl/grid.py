@@ -131,9 +131,9 @@ def _grid(half_octaves: int, nodes: int) -> Grid:
 def _graded(gap: float, nodes: int) -> FloatArray:
     """Return the nodes (n,) from inlet to outlet.
 
-    The distance between neighbouring nodes is proportional to a prescribed function of the position. If the film is
-    much thicker than b^2/R, the pressure extends over the length (2 R h)^1/2, which is much larger than the half width
-    b. The mesh then need not resolve lengths of the order of b.
+    The distance between neighbouring nodes is proportional to a prescribed function of the position. Let h be the film
+    thickness, b the half width and R the reduced radius. If h is much larger than b^2/R, the pressure extends over the
+    length (2 R h)^1/2. This length is then much larger than b, so the mesh need not resolve lengths of the order of b.
     """
     inlet = -inlet_length(gap)
     outlet = max(1.25, 1.0 + 1.2 * gap ** (2 / 3))

@@ -348,7 +348,8 @@ def column_slopes(
 def _scale_walls(i: int, inertia: float, heat: Heat) -> None:
     """Turn the rows of both half cells into equations for the surface temperatures.
 
-    A half cell has half the inertia of a whole cell.
+    The rows contain the inertia of a whole cell. Half of this inertia is subtracted, because a half cell has half the
+    inertia of a whole cell.
     """
     column, convection, responses, walls = heat.column, heat.convection, heat.column.responses, heat.surfaces.walls[i]
     for side in range(2):

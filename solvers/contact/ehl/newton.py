@@ -248,12 +248,14 @@ def newton_step(
     step: FloatArray,
     step_t: FloatArray,
 ) -> None:
-    """Compute the Newton step from the linearised equations: (n + 1,) in (P, H0), and (n, k) in T.
+    """Compute the Newton step from the linearised equations: `step` (n + 1,) in (P, H0), and `step_t` (n, k) in T.
 
     The factored Jacobian leaves out the transport of heat between columns. Therefore GMRES corrects the step that this
     Jacobian alone gives. The same Jacobian is the preconditioner of GMRES. The Jacobian contains the whole balance of
-    load. The load is therefore met after any number of corrections. If the first correction is small, GMRES is
-    not needed. The correction is small if the square of its ratio to the step is within the tolerance.
+    load. The step therefore satisfies this balance, no matter how many corrections GMRES makes.
+
+    If the first correction is small, the correction is applied without GMRES. The first correction is small if the
+    square of the ratio of this correction to the step is within the tolerance.
     """
     n, nodes = step_t.shape
     given, change = np.zeros((n, nodes)), np.zeros(n + 1)

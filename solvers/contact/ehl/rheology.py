@@ -81,7 +81,10 @@ def mid_film_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) 
 
 @inlined_kernel
 def _newtonian_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
-    """Solve du/h = int (tau_m + G (zeta - 1/2))/eta dzeta for tau_m, where du is u2 - u1."""
+    """Solve du/h = int (tau_m + G (zeta - 1/2))/eta dzeta for tau_m.
+
+    Here du is u2 - u1, G is h dp/dx, and zeta is the height above surface 1, divided by h.
+    """
     m = shear.fluidity.shape[1]
     dz, zeroth, first = 1.0 / m, 0.0, 0.0
     for j in range(m):

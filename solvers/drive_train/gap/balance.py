@@ -208,8 +208,9 @@ def _matrix(mesh: LoadedMesh, state: _State) -> FloatArray:
 def _advance(unit: Unit, mesh: LoadedMesh, state: _State) -> _State:
     """Return the state after Newton's step.
 
-    The step is halved as long as the residual does not fall, or as long as a part of the unit has no solution after the
-    step.
+    The step is halved until two conditions are met: every part of the unit has a solution after the step, and the
+    residual falls. If less than `LEAST_STEP` of the step is left, the residual need not fall, and a part without a
+    solution raises NoSolution.
     """
     step, share = remove_mean(solve_linear(_matrix(mesh, state), -state.residual)), 1.0
     while True:

@@ -31,7 +31,7 @@ PATH_TOLERANCE = 1e-6  # in scales of the tilts
 class HubLoads:
     """Tilts of all hubs, and the loads of the couplings.
 
-    Each coupling has four `tilts` [rad] and five `loads` [N, N m]. `by_tilts` is the derivative dp/dx of the loads with
+    Each coupling has four `tilts` [rad] and five `loads` [N, N m]. `by_tilts` is the derivative of the loads with
     respect to the tilts.
     """
 
@@ -175,8 +175,8 @@ def solve_linear(matrix: FloatArray, right: FloatArray) -> FloatArray:
 def _advance(unit: Unit, force: FloatArray, state: _State, step: FloatArray) -> _State:
     """Return the state after a step of the tilts.
 
-    The step is halved as long as the residual does not fall, or as long as the model of a coupling or bearing rejects
-    the tilts.
+    The step is halved until two conditions are met: the models of all couplings and bearings accept the tilts, and the
+    residual falls. If less than `LEAST_STEP` of the step is left, the residual need not fall.
     """
     share = 1.0
     while True:

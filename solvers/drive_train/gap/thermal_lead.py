@@ -1,9 +1,10 @@
 """Lead and profile errors of gears whose temperature differs from the reference temperature of the drawings.
 
-The gear bodies are assumed to be as warm as the teeth, and the pumped gas heats the gears further. A heated body keeps
-its shape and grows by the strain eps = alpha_L dT; alpha_L is the coefficient of expansion and dT is the temperature
-rise. A point of the body moves away from the axis by eps times the distance between point and axis, and moves along the
-axis by the integral of eps. In the direction of the line of action, the flanks grow by
+The model assumes that the gear bodies are as warm as the teeth. The pumped gas causes an additional temperature rise,
+which varies over the face. A heated body keeps its shape and grows by the strain eps = alpha_L dT; alpha_L is the
+coefficient of expansion and dT is the temperature rise. A point of the body moves away from the axis by eps times the
+distance between point and axis, and moves along the axis by the integral of eps. In the direction of the line of
+action, the flanks grow by
     eps_1 (s_A + x) + tan beta_b int_0^y eps_1        on the pinion
     eps_2 (N - s_A - x) - tan beta_b int_0^y eps_2    on the wheel
 Here A is the start of the path of contact, s_A is the distance from the pinion's base tangent point to A, x is the

@@ -78,7 +78,8 @@ def mesh_thrust(inputs: DriveTrainInputs, path: PathOfContact, directions: Frame
 
     Notes
     -----
-    Eq. D14.
+    Eq. D14. Here sigma is the sense of rotation of the pinion, h is +1 for a right-hand pinion and -1 for a left-hand
+    pinion, F_bt is the transverse force, and beta_b is the base helix angle.
     """
     tangential = inputs.mesh.distribution.load.torque / path.pair.pinion.base_radius
     return float(tangential * directions.force[2])

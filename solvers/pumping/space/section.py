@@ -85,8 +85,8 @@ def _flank_section(
 
     The line of action may miss the involute of one gear, gear A. The section then starts at the point where the line of
     action meets the flank of the other gear, gear B, and ends at the nearest point of gear A. The clearance is the
-    length of this section. If the distance between the end of the missed involute and gear B is smaller, the clearance
-    is this distance.
+    smaller of two values: the length of this section, and the distance between the end of the missed involute and
+    gear B.
     """
     start = space.root.involute_roll
     if roll < start:

@@ -235,9 +235,10 @@ def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunc
 def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
     """Return the highest of `peak` and the values on certain lines of the flank.
 
-    The profile line through `peak` is searched. For spur pairs, one diagonal of the flank is also searched: the feature
-    line of the mirror image of the pair. Other functions search the second diagonal, which is the feature line of the
-    pair itself. Both diagonals are searched so that a pair and its mirror image have the same largest value.
+    The profile line through `peak` is searched. For spur pairs, the feature line of the mirror image of the pair is
+    searched as well. This feature line is one diagonal of the flank. The other diagonal is the feature line of the pair
+    itself. Other functions search this other diagonal. Both diagonals must be searched, so that a pair and its mirror
+    image have the same largest value.
     """
     peak = max(peak, _peak_at_kinks(distribution, function, peak), key=_height)
     if distribution.path_of_contact.plane.tan_base_helix > 0.0:

@@ -135,7 +135,10 @@ def _values(result: ehl.LineContactResult) -> dict[str, float | None]:
 
 
 def _bounds(result: ehl.LineContactResult) -> dict[str, float | None]:
-    """Return bounds for a point whose load is too light; `result` is the solution under the lightest accepted load."""
+    """Return bounds of flash temperature and film for a point whose load is too light for the solver.
+
+    `result` is the solution of the point under the lightest load that the solver accepts.
+    """
     assert result.temperature is not None
     flash = max(result.temperature.surface_1_flash, result.temperature.surface_2_flash)
     return {"flash_bound": flash, "film_bound": result.film.minimum}
