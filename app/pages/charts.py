@@ -79,7 +79,7 @@ def figures_of(
 
 
 def linked(declaration: Declaration, figure: Figure | None, asked: Asked) -> Chart:
-    """Return the chart of a figure whose image and values are at addresses of their own.
+    """Return the chart of a figure. The page loads the image and the values of the chart from separate addresses.
 
     The chart has a second image for dark pages unless the page has a theme.
     """

@@ -108,8 +108,8 @@ def _left(sections: list[Section]) -> list[tuple[str, list[tuple[Leaf, str, bool
     """Return the title of each section, and those inputs of the section that have their default value or no value.
 
     Every input comes with a text and a boolean. If the boolean is True, the input has a default value, and the text is
-    this value. If the boolean is False, the input has no value, and the text says what replaces the value. An example
-    is the quantity from which the value is estimated.
+    this value. If the boolean is False, the input has no value, and the text says what is used instead. For example,
+    the text names the quantity from which the value is estimated.
     """
     left = []
     for title, _, rows in sections:

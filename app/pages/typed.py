@@ -67,7 +67,10 @@ def plain_number_of(text: str) -> Any:
 
 
 def in_link(text: str, unit: str | None = None) -> str:
-    """Convert a number typed in a field with this unit into its text in a link. Return other text unchanged."""
+    """Convert a number from the user's notation to the notation of links. Return other text unchanged.
+
+    `unit` is the unit of the field in which the number was typed.
+    """
     if _PLAIN.fullmatch(text) and not _DOUBTFUL.fullmatch(text):
         return text
     parts = _parts(text)
@@ -98,14 +101,17 @@ def list_in_link(text: str, unit: str | None = None) -> str:
 
 
 def items_in_link(text: str) -> str:
-    """Convert rows of typed numbers into their text in a link. Blanks and semicolons separate the numbers."""
+    """Convert all numbers of a text from the user's notation to the notation of links.
+
+    Semicolons, blanks and line breaks separate the numbers.
+    """
     return re.sub(r"[^;\s]+", lambda item: in_link(item[0]), text)
 
 
 def table_in_link(text: str) -> str:
     """Convert a table into the text that represents the table in a link.
 
-    The first line of the table names the columns. A column `name` is left as it is.
+    The first line of the table names the columns. The cells of a column `name` are not converted.
     """
     separator = separator_of(text)
     heading, *rows = text.split("\n")
@@ -230,9 +236,9 @@ def _has_several(item: str) -> bool:
 def _settled(item: str, decimal: set[str]) -> str:
     """Add a zero to the end of a doubtful number if the list shows that the mark in the number is a decimal mark.
 
-    A doubtful number has three digits after its mark, a point or a comma. This mark may separate decimals or thousands.
-    `decimal` contains the marks that are decimal marks in other numbers of the list. With the zero, the number has four
-    decimals and is no longer doubtful.
+    The mark in a number is a point or a comma. A number is doubtful if three digits follow the mark, because the mark
+    may then separate decimals or thousands. `decimal` contains the marks that are decimal marks in other numbers of the
+    list. With the zero, the number has four decimals and is no longer doubtful.
     """
     doubtful = _DOUBTFUL.match(item)
     return f"{item[: doubtful.end()]}0{item[doubtful.end() :]}" if doubtful and doubtful[2] in decimal else item

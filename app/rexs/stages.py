@@ -263,7 +263,7 @@ class StageDraft(Draft):
         self.put(row.field, *modules[0], row.name)
 
     def _transverse_modules(self) -> list[tuple[float, Component]]:
-        """Return a pair of normal module and gear for each gear that has a transverse module in the file."""
+        """Return the pair (normal module, gear) for each gear that has a transverse module in the file."""
         cosine = cos(radians(self.fields.get(table.HELIX_ANGLE.field, 0.0)))
         modules = self.values_of(self.gears, table.TRANSVERSE_MODULE)
         if modules:

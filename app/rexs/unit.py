@@ -131,7 +131,7 @@ def _draft_of(pair: Pair, flow: Flow, pinion: int | None = None) -> StageDraft:
 def _described_by(stage: StageDraft) -> Iterator[Component]:
     """Yield the components that describe a stage.
 
-    The answer lists the attributes of these components that are not used.
+    If an attribute of one of these components is not used, the answer lists this attribute.
     """
     model = stage.reading.model
     yield stage.stage

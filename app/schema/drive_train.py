@@ -75,7 +75,10 @@ class GroundCurve(Section, of=mesh.LeadCurve):
 
 
 class TrainModifications(FlankModifications, of=mesh.Modifications):
-    """The modifications that are ground. A gap is positive where material is missing."""
+    """Gaps between the flanks: modifications that are made by grinding, and misalignment that has other causes.
+
+    A gap is positive where material is missing.
+    """
 
 
 class TrainModel(MeshModel, PumpingOptions, of=si.DriveTrainInputs, only=("face_stations", "coupling_friction")):

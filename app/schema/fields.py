@@ -281,7 +281,8 @@ def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
 
     If several ways match, return the shortest way. If no way matches, return None. `wanted` may leave out sections, but
     not lists. The solver's inputs may have outer parts that the request does not have. `wanted` may therefore begin
-    with names that do not belong to the request. In this case, the next name must be at the root of the request.
+    with names that the request does not have. In this case, the first name after these names must be at the root of the
+    request.
     """
     request_names: dict[_Names, _Names] = {}
     for way in _ways(model):

@@ -39,7 +39,7 @@ class CheckedAxis(NamedTuple):
     values: list[Scalar | list[Scalar]] | None
 
     def header(self) -> dict[str, Any]:
-        """Return the description of the axis in the first line of a study."""
+        """Return the description of the axis for the header, which is the first line of a study."""
         return {"path": self.path, "unit": common_unit(self.leaves), "values": self.values}
 
 

@@ -57,7 +57,10 @@ class Pool(Protocol):
 
 
 class PoolLost(Exception):
-    """The processes that solve points are lost. In the last line of the study, `code` states the reason."""
+    """The processes that solve points are lost.
+
+    The study then ends with a line that reports an error. `code` is the code of this error.
+    """
 
     code = "scheduler_lost"
 

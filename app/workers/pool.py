@@ -137,7 +137,7 @@ class Pool:
         return False
 
     async def serve(self) -> None:
-        """Give calls to a worker one after another. One such loop runs for each worker."""
+        """Give calls to a worker one after another, without end. This function runs once for each worker."""
         while True:
             while not (waiting := [job for job in self._waiting if not job.outcome.done()]):
                 self._arrival.clear()

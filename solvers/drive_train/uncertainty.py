@@ -60,7 +60,12 @@ def uncertain_inputs(inputs: DriveTrainInputs) -> tuple[Range, ...]:
 
 
 def _clearances(gear: str, shaft: Shaft) -> Range:
-    """Return the clearances of a shaft: larger at the first bearing and smaller at the second, and vice versa."""
+    """Return the range of the bearing clearances of a shaft. The range has two rows of values.
+
+    In the first row, the clearance of the first bearing is increased, and the clearance of the second bearing is
+    reduced. In the second row, the first clearance is reduced, and the second clearance is increased. Bearings that are
+    not plain bearings are left out.
+    """
     plain = [(k, bearing.clearance) for k, bearing in enumerate(shaft.bearings) if isinstance(bearing, JournalBearing)]
     return Range(
         f"{gear} clearance",

@@ -131,7 +131,7 @@ def _lead(mesh: Mesh, space: Space, speed: float) -> float:
 
 
 def _spaces_result(gas: Gas, space: Space, grids: Grids, frequency: float) -> SpacesResult:
-    """Convert one stroke to results: values relative to the ambient state, mass flow and power."""
+    """Convert one stroke to results: mass flow, power, and values relative to the ambient state."""
     flow = grids.flow
     profile = FaceProfile(
         position=flow.position,

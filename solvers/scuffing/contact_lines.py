@@ -109,10 +109,10 @@ def roll_positions(
 ) -> RollPositions:
     """Return at least `count` roll positions, equidistant between neighbouring corners.
 
-    `along_path` contains the x [m] of kinks of the gap, and `along_face` contains the y [m] of kinks of the gap. These
-    kinks and the edges of the plane are straight lines in the plane of action. If two of these straight lines cross at
-    the point (x, y), a contact line passes this point at the roll position (x + y tan beta_b) mod p_bt. This roll
-    position is called a corner.
+    A corner is a roll position at which a contact line passes the crossing point of two straight lines. These straight
+    lines are the edges of the plane of action and the kinks of the gap. `along_path` contains the x [m] of kinks, and
+    `along_face` contains the y [m] of kinks. A contact line passes the crossing point (x, y) at the roll position
+    (x + y tan beta_b) mod p_bt.
     """
     pitch = plane.base_pitch
     x = np.array([0.0, plane.path_length, *along_path])

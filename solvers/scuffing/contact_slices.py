@@ -194,11 +194,11 @@ def _range(mesh: Mesh, line: float, zone: FloatArray, table: Slices, first: int,
 def _beside(
     mesh: Mesh, line: float, table: Slices, end: tuple[float, float], at_end: float, middle: int, following: int
 ) -> float:
-    """Return the least gap [m] between an end of a stretch and the middle of the slice at this end.
+    """Return the least gap [m] in a half of the first or the last slice of a stretch.
 
-    `end` contains two values: the y [m] of this end of the stretch, and the step in y [m] across the slice, away from
-    this end. `at_end` is the gap [m] at this end. `middle` is the index of the slice at this end, and `following` is
-    the index of the next slice.
+    This half extends from the end of the stretch to the middle of the slice. `end` contains two values: the y [m] of
+    the end of the stretch, and the step in y [m] that leads from this end across the whole slice. `at_end` is the gap
+    [m] at this end. `middle` is the index of the slice at this end, and `following` is the index of the next slice.
     """
     y, step = end
     if table.gap[middle] > table.gap[following]:

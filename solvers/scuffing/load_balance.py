@@ -117,7 +117,10 @@ def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple
 
 @kernel
 def _follow(table: Slices, count: int, change: float) -> float:
-    """Change every load by its derivative times `change`; return the force [N]. `change` [m] is a change of TE."""
+    """Change the load of every slice by its derivative times `change`; return the force of all slices [N].
+
+    `change` [m] is the change of TE, and the derivative of a load is the derivative with respect to TE.
+    """
     force = 0.0
     for i in range(count):
         table.load[i] += table.stiffness[i] * change

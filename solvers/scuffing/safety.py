@@ -249,7 +249,7 @@ def _contact_temperature(
 def _with_band(
     temperatures: Temperatures, heat: Heat, flash: Flash, safety: Safety | None
 ) -> tuple[Heat, Safety | None]:
-    """Add the range of the safety factor to the band of `heat`, and base the verdict on the smallest safety factor."""
+    """Add the range of the safety factor to `heat.band`, and base the verdict on the smallest safety factor."""
     if safety is None or safety.blok_factor is None or flash.blok_max is None or heat.band is None:
         return heat, safety
     contacts = [sum(flanks) / 2 + flash.blok_max for flanks in heat.flank_cases]

@@ -455,7 +455,7 @@ def _parabola(fraction: FloatArray, end_ratio: float) -> FloatArray:
 
 @inlined_kernel
 def compliance_at(compliance: PairCompliance, x: float) -> tuple[float, float]:
-    """Return `constant` [1/Pa] and `limit` [m] at x [m] from A; the limit is infinite for linear contact."""
+    """Return `constant` [1/Pa] and `limit` [m] at x [m] from A; for linear contact, `limit` is infinite."""
     place = place_of(x, compliance.points_per_metre, compliance.constant.size)
     constant = interpolated(compliance.constant, place)
     return constant, np.inf if compliance.logarithmic == 0.0 else interpolated(compliance.limit, place)

@@ -271,7 +271,7 @@ def film_against_micropitting(inputs: ScuffingInputs, result: Scuffing) -> Figur
 def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """Draw the local friction and the film pressure by thermal EHL along the evaluated lines.
 
-    A line shows the mean coefficient of friction in Blok's formula.
+    The mean coefficient of friction that Blok's formula uses is drawn as a reference.
     """
     _with_oil(result)
     mean = result.flash.friction_coefficient

@@ -342,7 +342,7 @@ def checked(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) -
 
 
 def output_choices(calculation: Calculation) -> list[Choice]:
-    """Return a choice for each scalar number of the answer that a study can show; headline numbers come first."""
+    """Return the choices for the output that a study shows: scalar numbers of the answer, headline numbers first."""
     response = calculation.response
     first = headlines(response)
     titles = {branch.path: branch.title for branch in tree(response).branches}

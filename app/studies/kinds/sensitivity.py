@@ -259,7 +259,7 @@ class SensitivityPage(StudyPage):
     plan = Sensitivity
 
     def body(self) -> dict[str, Any]:
-        """Return the body with the request of the case and the output that the page shows."""
+        """Return the body of the study: the endpoint, the request of the case, and the output that the page shows."""
         outputs = [self.output.path]
         return {"endpoint": self.calculation.path, "request": self.asked.body, "outputs": outputs}
 

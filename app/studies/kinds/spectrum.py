@@ -464,9 +464,9 @@ def _with_shares(cases: Sequence[LoadCase]) -> list[LoadCase]:
 
 
 def _machines(tolerances: Tolerances, leaves: Sequence[Leaf]) -> FloatArray:
-    """Draw the values of the fields that scatter, with one row per machine and one column per field.
+    """Draw random values of the fields that scatter, with one row per machine and one column per field.
 
-    Each replicate is an independent random sample of machines.
+    The machines belong to several samples, called replicates. The replicates are independent of one another.
     """
     seeds = np.random.SeedSequence(tolerances.seed).spawn(tolerances.replicates)
     cubes = [

@@ -30,13 +30,13 @@ Numbers = NDArray[Any]
 
 
 class Columns(NamedTuple):
-    """Shear and flow in the columns of the film. Every node along the contact has one column.
+    """Shear and flow in the n columns of the film. A column has m intervals and k nodes across the film.
 
     Three fields have one value per interval (n, m): `density` [kg/m^3], the shear stress `stress` [Pa] and the shear
     rate `rate` [1/s]. Three fields have one value per column (n,): `mid_stress`, the shear stress half way across the
-    film [Pa], and the flow coefficients `a` [s] and `b` [kg/(m^2 s)]. Two fields have one value per node (n, k):
-    `couette`, the stream function of the flow without pressure gradient [kg/(s m)], and `poiseuille`, the profile of
-    the flow due to the pressure gradient. This profile rises from 0 at surface 1 to 1 at surface 2.
+    film [Pa], and the flow coefficients `a` [s] and `b` [kg/(m^2 s)]. Two fields have one value per node across the
+    film (n, k): `couette`, the stream function of the flow without pressure gradient [kg/(s m)], and `poiseuille`, the
+    profile of the flow due to the pressure gradient. This profile rises from 0 at surface 1 to 1 at surface 2.
     """
 
     density: Numbers

@@ -131,7 +131,7 @@ def face_edges(stream: FloatArray, edges: FloatArray) -> None:
 
 @inlined_kernel
 def surface_history(problem: Problem, i: int, surface_matrix: FloatArray, surfaces: Surfaces) -> None:
-    """Compute the flash temperatures at column i due to the heat fluxes upstream, and the gains of column i.
+    """Compute two results for column i: the gains, and the flash temperatures due to the heat fluxes upstream.
 
     A gain is the temperature rise of a surface per heat flux at the column itself [K m^2/W].
 

@@ -120,7 +120,7 @@ def fluid_fractions(problem: Problem, state: State, work: Work) -> float:
 
 @kernel
 def match_stream(problem: Problem, state: State, work: Work) -> None:
-    """Compute stream functions for which all columns carry the same mass flux, in place.
+    """Compute, in place, stream functions with the same mass flux in all columns.
 
     Parameters
     ----------
@@ -134,8 +134,8 @@ def match_stream(problem: Problem, state: State, work: Work) -> None:
     Notes
     -----
     Eq. E8.1. In a full column the surfaces drag a part of the mass flux; the remaining part has the profile of pressure
-    flow. A broken column has the stream function of the last full column. Convection therefore conserves mass even if
-    the iteration has not converged yet.
+    flow. A broken column has the stream function of the last full column. Because the mass flux is the same in all
+    columns, convection conserves mass even if the iteration has not converged yet.
     """
     flow, heat = work.film.flow, work.heat
     flux = fluid_fractions(problem, state, work)

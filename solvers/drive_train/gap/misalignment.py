@@ -20,7 +20,10 @@ from solvers.scuffing.modification import gaps_at
 def misalignment(
     inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, thermal: ThermalLead, equilibrium: Equilibrium
 ) -> Misalignment:
-    """Return the gap due to shafts and heat, the part of each cause, and the modifications that compensate the gap."""
+    """Return the gap that shafts and heat cause, and the modifications that compensate this gap.
+
+    The result also states how much each cause contributes to the slope of the gap.
+    """
     even = _even_gap(inputs, unit, mesh, equilibrium) + _at_stations(thermal.lead, unit.stations.size)
     return Misalignment(
         shaft_slope=face_slope(equilibrium.gap),

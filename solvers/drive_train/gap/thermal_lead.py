@@ -51,9 +51,9 @@ class GasHeat:
 class ThermalLead:
     """Gap that heat causes, and temperature rise of the metal due to pumping [K].
 
-    `lead` [m] is the gap at the stations; its mean is 0. `profile_slope` [m] belongs to the lead. Contact lines that
-    are parallel without heat stay parallel only if lead and profile slope are applied together. `base_pitch` [m] is the
-    growth of the pinion's base pitch minus the growth of the wheel's base pitch.
+    `lead` [m] is the gap at the stations; its mean is 0. `profile_slope` [m] is the profile slope that heat causes.
+    Contact lines that are parallel without heat stay parallel only if lead and profile slope are applied together.
+    `base_pitch` [m] is the growth of the pinion's base pitch minus the growth of the wheel's base pitch.
     """
 
     lead: FloatArray

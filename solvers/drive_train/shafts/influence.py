@@ -240,9 +240,9 @@ def _collar_loads(
 ) -> FloatArray:
     """Return the nodal loads of an axial force of 1 N at the thrust collar; without a collar the loads are 0.
 
-    A collar balances the axial forces of mesh and couplings on the pinion. The force of 1 N points towards +Z on the
-    pinion and towards -Z on the wheel. The force acts at the radius of the collar, and therefore loads the shaft with a
-    tilting moment. This moment acts at the end of the face with y = b.
+    The collar balances the axial forces that mesh and couplings exert on the pinion. The force of 1 N points towards +Z
+    on the pinion and towards -Z on the wheel. The force acts at the radius of the collar, and therefore loads the shaft
+    with a tilting moment. This moment acts at y = b, which is one end of the face.
     """
     loads = np.zeros((2, 2 * model.z.size))
     if inputs.collar_radius is not None:

@@ -326,7 +326,7 @@ def _add_outflow(balance: Any, share: float, passage: Passage) -> None:
 
 @kernel
 def _add_inflow(balance: Any, share: float, passage: Passage) -> None:
-    """Add the flow into a pocket through the lower face of the pocket to the balance of this pocket."""
+    """Update the balance of a pocket with the flow that enters the pocket through its lower face."""
     balance.residual -= share * passage.flow
     _add(balance.diagonal, -share, passage.by_right_pressure, passage.by_right_mass)
     _add(balance.lower, -share, passage.by_left_pressure, passage.by_left_mass)

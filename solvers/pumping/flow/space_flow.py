@@ -126,7 +126,7 @@ def include_speed(extremes: RecordArray, mach: float, velocity: float) -> None:
 
 @kernel
 def include_demand(extremes: RecordArray, mach: float) -> None:
-    """Update the largest demand of the stroke with a new demand at an end of the stretch of the face.
+    """Update the largest demand of the stroke with a new demand at one end of the duct.
 
     The demand `mach` is the Mach number that the gas would reach at this end if the gas expanded to ambient pressure.
     """

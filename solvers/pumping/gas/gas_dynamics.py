@@ -125,13 +125,13 @@ def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, 
 
     A cell takes part while the stroke is under way at the centre of the cell. The first and the last cell of the duct
     also take part while the stroke is under way at the end of the duct, so that gas can leave through an end as long as
-    the end is open. For the walls and the balances of a cell, only the share of the step that lies in the stroke
-    counts.
+    the end is open. If a cell is in its stroke during only a part of the step, the leakage and the mean temperatures of
+    the cell count only for this part.
 
     If the stroke runs along the face faster than sound, cells take part a few cell widths early. In this case, physical
-    waves do not reach the border to the idle cells. On a grid, however, waves spread over a few cells. If the border
-    lay within this spread, the gas that passes the border would fill the next cells. The flow could then develop in two
-    different ways, depending on the sequence of steps.
+    waves do not reach the border between the active and the idle cells. On a grid, however, waves spread over a few
+    cells. If these waves reached the border, they would change the state with which the next cells begin. The flow
+    could then develop in two different ways, depending on the sequence of steps.
     """
     low, high, rear = 0, 0, duct.cells - 1
     early = _AHEAD * duct.lag * duct.width if duct.speed >= duct.lag * gas.sound_speed else 0.0

@@ -94,10 +94,11 @@ def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[floa
 
 @kernel
 def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[float, float, float, float]:
-    """Find the point of half the space's profile nearest to (radius, angle).
+    """Find the point of the space's profile nearest to (radius, angle).
 
-    Returns the distance between both points [m]; radius [m] and angle [rad] of the nearest point; and the area between
-    the owner's axis and the profile up to the nearest point [m^2].
+    Only one half of the symmetric profile is searched. Returns the distance between both points [m]; radius [m] and
+    angle [rad] of the nearest point; and the area between the owner's axis and the profile up to the nearest point
+    [m^2].
     """
     root, base = space.root, space.base_radius
     roll, distance = _foot_on_flank(space, radius, angle)
@@ -140,9 +141,10 @@ def foot_on_mate(space: ToothSpace, radius: float, angle: float) -> tuple[float,
 def from_mate(
     space: ToothSpace, angle: float, mate_angle: float, mate_roll: float
 ) -> tuple[float, float, float, float]:
-    """Find the point of half the space's profile that is nearest to the mate's flank at the roll length `mate_roll`.
+    """Find the point of the space's profile that is nearest to a point of the mate's flank.
 
-    Returns the values of `nearest_on_profile`.
+    The point of the mate's flank has the roll length `mate_roll` [m]. Only one half of the space's symmetric profile is
+    searched. Returns the values of `nearest_on_profile`.
     """
     radius = np.hypot(space.mate_base_radius, mate_roll)
     mu = mate_angle - space.mate_base_half_angle + involute(mate_roll, space.mate_base_radius)

@@ -161,8 +161,8 @@ def section(space: ToothSpace, angle: float) -> Section:
 
     Notes
     -----
-    Eqs. 5, P3. The flanks of the coast side carry gas through a section that is fixed on the line of action. These
-    flanks carry the gas out of the space if the owner of the space drives, else into the space.
+    Eqs. 5, P3. On the coast side, the gap between the flanks lies on the line of action. The flanks carry gas through
+    this gap: out of the space if the owner of the space drives, else into the space.
     """
     mate_angle = angle * space.ratio + space.offset
     left_gap = 0.0 if space.owner_drives else space.backlash_gap

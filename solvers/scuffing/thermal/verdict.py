@@ -1,8 +1,8 @@
 """Largest flash temperature and thinnest film of the lines and of the flank, and warnings about missing values.
 
-The two values by thermal EHL are stated only if no unsolved point can be hotter than the hottest solved point or have a
-thinner film than the thinnest solved film. At some unsolved points, bounds for flash temperature and film are known.
-These bounds may show that the point is not hotter, and that its film is not thinner.
+The two values by thermal EHL are stated only if every unsolved point meets two conditions: the point cannot be hotter
+than the hottest solved point, and the film at the point cannot be thinner than the thinnest solved film. At some
+unsolved points, bounds for flash temperature and film are known. The two conditions are checked with these bounds.
 """
 
 from collections.abc import Sequence
