@@ -164,7 +164,7 @@ class _Endpoints(ABC, Generic[Answer, Stream]):
         return self.study("/v1/sweep", request, progress=progress)
 
     def spectrum(self, request: Json, *, progress: bool = False) -> Stream:
-        """Solve a machine, including its tolerances, over a load spectrum. The last line states the probabilities."""
+        """Solve a request with tolerances for a load spectrum. The last line states the probabilities."""
         return self.study("/v1/spectrum", request, progress=progress)
 
     def sensitivity(self, request: Json, *, progress: bool = False) -> Stream:

@@ -203,7 +203,7 @@ class Crossing(NamedTuple):
     error: float
 
     def named(self, axis: Axis) -> str:
-        """Return the abscissa with its unit and as many digits as its error permits."""
+        """Return the abscissa and its unit as text. The error of the abscissa determines the number of digits."""
         glue = "" if axis.unit in {None, "", "°"} else " "
         return f"{to_digits(self.place, self.error)}{glue}{axis.unit or ''}"
 
@@ -302,9 +302,9 @@ def influence(output: Axis, value: float, influences: list[Influence]) -> Figure
 def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
     """Draw a row for each uncertain input, with a dot for each value of the input.
 
-    A value of an input occurs at several corners. The dot for this value shows the worst output of these corners. One
-    corner has the worst output of all corners. Every row has this output as its `value`, and a red dot at this output.
-    `nominal` is the output of the case as described.
+    A value of an input occurs at several corners. The dot for this value shows the worst output of these corners. The
+    worst output of all corners is the `value` of every row, and a red dot marks this output in every row. `nominal`
+    is the output of the case as described.
     """
     levels = []
     if nominal is not None:

@@ -250,7 +250,7 @@ def _listed(leaf: Leaf, text: str) -> list[Any]:
 
 
 def _with_lists(model: type[Documented], content: Any, path: str = "") -> Any:
-    """Return the content with lists and matrices instead of objects whose names are indices."""
+    """Replace each object whose keys are indices by a list or a matrix, and return the new content."""
     if not isinstance(content, dict):
         return content
     inner = {name: _with_lists(model, value, f"{path}.{name}".lstrip(".")) for name, value in content.items()}

@@ -95,7 +95,7 @@ def values_by_path(response: Documented | None) -> dict[str, Any]:
 
 
 def groups(response: Documented, before: Documented | None = None) -> dict[str, list[Row]]:
-    """Return tables of the scalars and short lists of an answer. The keys are the titles of the groups.
+    """Return a table of scalars and short lists for each group of an answer. The keys are the titles of the groups.
 
     `before` is the answer of the variant. If `before` is given, each row also has the value of the variant.
     """

@@ -84,10 +84,10 @@ def _stages(reading: Reading, all_pairs: list[Pair], base: Flow, flows: list[Flo
 
 
 def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], StageDraft]:
-    """Return a stage in the answer, and the draft of the stage.
+    """Return the content of the answer about a stage, and the draft of the stage.
 
-    The load of the requests is taken from the model. If the model states no load, the load is taken from the first load
-    case that states a load.
+    The requests for the stage need a load. This load is the load that the model states outside the load cases. If there
+    is no such load, the first load case that states a load is used.
     """
     flow = next((flow for flow in (base, *flows) if flow.knows(pair)), base)
     stage = _draft_of(pair, flow)

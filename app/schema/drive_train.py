@@ -565,7 +565,7 @@ class MisalignmentParts(Group, of=results.Parts):
 
 
 class MisalignmentSummary(Group, of=results.Misalignment, without=("curves",)):
-    """The gap over the face due to the shafts and due to heat.
+    """Slope, crown and range of two gaps over the face: the gap due to the shafts, and the gap due to heat.
 
     A negative slope means that the gap opens towards the end that meshes first. This end then carries less load.
     """

@@ -39,9 +39,10 @@ class Limit(NamedTuple):
     output: str = ""
 
     def exceeded(self, output: FloatArray) -> FloatArray:
-        """Return for each value of the output the probability that the value is beyond the limit.
+        """Return, for each value of the output, the probability that this value is beyond the limit.
 
-        The probability is NaN if the value is NaN.
+        If the limit is normally distributed, the probability follows from the distribution of the limit. If the limit
+        is fixed, the probability is 0 or 1. If the value is NaN, the probability is NaN.
         """
         beyond = output - self.mean if self.side == "above" else self.mean - output
         if self.deviation > 0.0:
@@ -83,7 +84,11 @@ class Estimate(NamedTuple):
 
 
 def mean_over_replicates(values: FloatArray) -> Mean:
-    """Return the mean of values `[replicate, draw]`. No value may be NaN."""
+    """Return the mean of values `[replicate, draw]`, with its standard error and its confidence interval.
+
+    The mean of each replicate is computed first. The standard error and the interval follow from the scatter of these
+    means. No value may be NaN.
+    """
     from scipy.stats import t  # noqa: PLC0415  half a second that only studies need
 
     means = values.mean(axis=1)

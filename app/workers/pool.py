@@ -104,9 +104,10 @@ class Pool:
         refused.outcome.set_exception(QueueFull())
 
     def _let_go(self, job: Job) -> None:
-        """Remove a call from the queue. If the call is running, let it run for at most another `GRACE_S` seconds.
+        """Remove a waiting call from the queue, or limit the time of a running call to another `GRACE_S` seconds.
 
-        This function runs as soon as the future of the call is done.
+        This function runs as soon as the future of the call is done. If the call was cancelled, for example, the future
+        is done although the call is still waiting or running.
         """
         if job in self._waiting:
             self._waiting.remove(job)

@@ -30,7 +30,10 @@ class StartUp:
         return [name for name, percent in self._percent.items() if percent == 100]
 
     def require(self, *endpoints: str) -> None:
-        """Raise WarmingUp if the stage of one of the endpoints is not ready, or if no stage is ready."""
+        """Raise WarmingUp if the stage of one of the endpoints is not ready.
+
+        If no endpoint is given, raise WarmingUp if none of the stages is ready.
+        """
         if not {BY_PATH[endpoint].stage.name for endpoint in endpoints} <= {*self.warm} or not self.warm:
             raise self._warming_up()
 

@@ -303,7 +303,7 @@ def displacement_peak_to_peak(mesh: MeshMotion) -> float:
 
 
 def displacement_peak(mesh: MeshMotion) -> float:
-    """Return the tooth angle [rad] at which f_t is largest.
+    """Return the tooth angle [rad] at which the displacement f_t is largest.
 
     With tangential kinematics this angle is 90 degrees; with spatial kinematics this angle differs from 90 degrees.
     """

@@ -86,7 +86,7 @@ class LoadDistribution:
     """Load distribution of the mesh in which the hub drives the sleeve, at the requested rotor angle.
 
     `load_concentration` is the ratio of the largest to the mean tooth force; this ratio is None without torque.
-    `rotation` is the common rotation of the hub relative to the sleeve, as a length at the pitch radius. If the
+    `rotation` is the rotation of the hub relative to the sleeve, as the length of an arc at the pitch radius. If the
     misalignment exceeds `unloading_misalignment`, at least one tooth carries no load; this limit applies to a centred
     sleeve with many teeth and no pitch deviations. `sleeve_displacement` (x, y) is relative to the hub. `iterations` is
     the number of iterations for a floating sleeve, and 0 for a centred sleeve.

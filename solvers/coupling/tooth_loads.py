@@ -158,9 +158,10 @@ def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
 
 @kernel
 def centred_rows(ahead: FloatArray, unit: float, unit_force: float, rotation: FloatArray) -> None:
-    """Replace the lead of each tooth by the tooth force, in place, and write the rotation of each row.
+    """Compute the tooth forces with a centred sleeve, in place, and write the rotation of each row.
 
-    The sleeve is centred. `unit` = T/(r_o c_t) and `unit_force` = T/r_o are the scales of lengths and forces.
+    On entry, `ahead` contains the interference at rest w_i of each tooth. On return, `ahead` contains the force of each
+    tooth. `unit` = T/(r_o c_t) is the scale of lengths, and `unit_force` = T/r_o is the scale of forces.
     """
     psi = 1.0
     for row in range(ahead.shape[0]):
@@ -263,10 +264,11 @@ def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: flo
 def length_to_lowest(ahead: FloatArray, change: FloatArray, start: float) -> float:
     """Find the length of a step at which the energy is lowest.
 
-    The result is LONGEST_STEP if the energy has no minimum. The slope of the energy has the negative value `start` at
+    If the energy has no minimum, the result is LONGEST_STEP. The slope of the energy has the negative value `start` at
     length zero, and rises piecewise linearly with the length. Newton's method finds the length at which the slope is
     zero. The iteration stays between two lengths, one shorter and one longer than the length at which the energy is
-    lowest. While no tooth resists, the length is doubled, because the next tooth may be many steps away.
+    lowest. If no tooth resists the motion at the present length, the length is doubled. Several doublings may be needed
+    before a tooth resists.
     """
     before, behind, length = 0.0, LONGEST_STEP, 1.0
     while length < LONGEST_STEP:

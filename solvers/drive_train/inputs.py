@@ -474,7 +474,7 @@ class Effects:
 
 @record
 class DriveTrainInputs:
-    """A gear unit: the mesh, the gas that the teeth pump, shafts, couplings and heat.
+    """Inputs of a gear unit: mesh, pumping of gas by the teeth, shafts, couplings, and heat.
 
     `mesh` and `pumping` both contain the gear pair. The two descriptions of the pair must agree, except for the tip
     radius of the rack. The load factors of the mesh raise only the load of the contacts, not the load of the shafts. A

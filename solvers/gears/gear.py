@@ -107,7 +107,9 @@ def transverse_gear(inputs: GearPairInputs, teeth: GearTeeth) -> Gear:
 
 
 def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: float) -> Gear:
-    """Return the virtual spur gear that the rack of the real gear cuts in the normal section.
+    """Return the virtual spur gear that represents the real gear in the normal section.
+
+    The rack that cuts the virtual gear is the normal section of the rack that cuts the real gear.
 
     Parameters
     ----------

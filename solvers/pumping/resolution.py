@@ -124,12 +124,13 @@ def compressed(gas: Gas, jump: float) -> float:
 
 
 def net_uncertainty(grids: Grids, jumped: float) -> float:
-    """Estimate the uncertainty of the net mass through an end in a stroke [kg] from the flow at half the resolution.
+    """Estimate the uncertainty of the net mass [kg] that passes an end in a stroke.
 
-    The net mass is the difference between outflow and inflow. Outflow and inflow change with the resolution, but by
-    chance their difference may change little. The uncertainty is therefore at least the change of the outflow plus the
-    change of the inflow. If jumps of the area change the pressure by the share `jumped`, the uncertainty is also at
-    least this share of all mass that passes the ends.
+    The estimate compares the flow with the flow at half the resolution. The net mass is the difference between outflow
+    and inflow. Outflow and inflow change with the resolution, but by chance their difference may change little. The
+    uncertainty is therefore at least the change of the outflow plus the change of the inflow. If jumps of
+    the area change the pressure by the share `jumped`, the uncertainty is also at least this share of all mass that
+    passes the ends.
     """
     here, there = grids.flow.ends, grids.halved.ends
     ends = ((here.front, there.front), (here.rear, there.rear))

@@ -233,8 +233,8 @@ def _contact_temperature(
     """Return the largest contact temperatures [K], which are sums of bulk and flash temperature.
 
     Blok's flash temperature is added to the mean bulk temperature `bulk`. The thermal EHL solution has one flash
-    temperature for the pinion and one for the wheel. The flash temperature of a gear by thermal EHL is added to the
-    bulk temperature of this gear.
+    temperature for the pinion and one for the wheel. Each of these two flash temperatures is added to the bulk
+    temperature of the same gear.
     """
     thermal = None
     if flash.thermal_ehl_max is not None:

@@ -63,7 +63,7 @@ async def streamed(
     headers: dict[str, str] | None = None,
     progress_s: float = PROGRESS_S,
 ) -> Response:
-    """Return the response with the lines of a study. The study has a place among the running studies until it ends."""
+    """Return the response with the lines of a study. The study counts as running until the response ends."""
     with ExitStack() as stack:
         stack.enter_context(http.app.state.studies.place())
         content = pieces(*await begun(http, study, progress_s))

@@ -174,7 +174,10 @@ class StudyPage(ABC):
         return ()
 
     def given(self) -> dict[str, Any]:
-        """Return the parts of the body that the declared controls set, from typed texts or from default values."""
+        """Return the parts of the body that the declared controls set.
+
+        The text in a control gives the value. If a control has no text, its default value is used.
+        """
         return body_of(self.declared(), self.views)
 
     def starters(self) -> Sequence[Starter | StudyExample]:

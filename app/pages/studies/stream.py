@@ -44,9 +44,10 @@ async def pieces(pool: Callable[[], Pool], opened: Opened, lines: Lines, clock: 
 async def report_pieces(
     pool: Callable[[], Pool], page: StudyPage, host: str, lines: Lines, clock: Clock
 ) -> AsyncGenerator[bytes, None]:
-    """Yield the report of a study as one document: parts with the number of solved points, and then the report.
+    """Yield the parts of a document that first shows the progress of a study, and finally the report of the study.
 
-    Each part replaces the part before it. `host` is the beginning of the addresses in the report.
+    While the study runs, each part shows the number of solved points. The last part is the report. Each part replaces
+    the part before it. `host` is the beginning of the addresses in the report.
     """
     yield report_head(page) + report_progress(page, 0)
     received, due = list[Line](), FIRST_FRAME_S

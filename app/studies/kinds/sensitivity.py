@@ -115,10 +115,10 @@ def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line
     base, step, half = outputs[moved.value], moved.step, moved.half
 
     def slope(below: float, above: float) -> float | None:
-        """Return the difference quotient between two points.
+        """Return the difference quotient of the output between two points.
 
         `below` and `above` are the offsets of the points from the value of the input. If one of the points has no
-        answer, the value of the input itself is used instead of this point.
+        answer, the point with the offset 0 is used instead.
         """
         places = [moved.value + offset for offset in (below, 0, above)]
         pairs = [(place, value) for place in places if (value := outputs.get(place)) is not None]

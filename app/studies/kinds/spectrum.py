@@ -989,8 +989,8 @@ def _suggested(calculation: Calculation, case: dict[str, Any]) -> str:
 def _tolerances_table(header: Line, limit: Line | None) -> Table:
     """Return a table of the fields that scatter, with their distributions.
 
-    For each field, the table states the share of the distribution that is cut off, and the rank correlation of the
-    field with the output in the worst case.
+    For each field, the table states how large a share of the distribution is cut off. The table also states the rank
+    correlation between the value of the field and the output in the worst case.
     """
     numbers = ("mean", "deviation", "median", "factor", "min", "mode", "max")
     ranks = (limit and limit["rank_correlation"]) or {}

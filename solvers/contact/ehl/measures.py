@@ -37,7 +37,7 @@ def temperature_range(attempt: Attempt) -> float:
 
 
 def at_place(attempt: Attempt, values: FloatArray, place: float = 0.0) -> float:
-    """Return the value at a place [half widths], by default at the centre, by linear interpolation of `values`."""
+    """Interpolate `values` linearly at a place [half widths]. The default place is the centre."""
     return float(np.interp(place, attempt.grid.x, values))
 
 

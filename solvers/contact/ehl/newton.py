@@ -174,8 +174,9 @@ def add_temperature_changes(
 ) -> None:
     """Add to `residual` the effect of a temperature step on the balance of mass.
 
-    `given` is the part of the temperature step that is a response to the pressure. The derivatives of ln A and B
-    already contain this part. Therefore the function uses only the difference between `step` and `given`.
+    `given` is the part of the temperature step that is a response to the pressure. The derivatives of the flow
+    coefficients ln A and B with respect to the pressure already contain this part. Therefore the function uses only the
+    difference between `step` and `given`.
     """
     n, nodes = step.shape
     log_a, b = np.zeros(n), np.zeros(n)

@@ -175,9 +175,9 @@ class Comparison:
         return self._error(0.0, {})
 
     def error(self) -> MeshError:
-        """Return the error with the effect of spikes and kinks.
+        """Return the error, including the effect of spikes and kinks.
 
-        No mesh of up to `FINEST` nodes resolves spikes and kinks.
+        Every mesh has this effect, because even a mesh of `FINEST` nodes does not resolve spikes and kinks.
         """
         return self._error(min(LEFT_BY_FALL * self.fall, 1.0), self.kinks)
 
@@ -267,8 +267,8 @@ def _kink(attempt: Attempt, surface: int) -> float:
     """Return the largest excess [K] of a node's surface temperature over the mean of both neighbouring nodes.
 
     Only nodes downstream of the centre are considered. Such an excess arises if the heat of a pressure spike affects
-    only one node. At a node nearer to the spike, the temperature would be higher still, by an amount as large as the
-    excess.
+    only one node. Another mesh may have a node that lies nearer to the spike. The temperature of that node would be
+    even higher than the temperature of the present node. The excess is used as an estimate of this difference.
     """
     t = attempt.state.temperature[attempt.grid.x > 0.0, surface]
     return float((t[1:-1] - 0.5 * (t[:-2] + t[2:])).max())

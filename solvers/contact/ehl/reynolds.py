@@ -228,9 +228,10 @@ def _flux_scales(problem: Problem) -> tuple[float, float]:
 def _upstream(x: FloatArray, i: int) -> tuple[int, float]:
     """Return the node upstream of node i, and the weight of this upstream node in an extrapolation.
 
-    The product B H is extrapolated to the face on the right of node i, from node i and from the node upstream of node
-    i. At the first face, i is 0, and there is no node upstream of node i. The function then returns node 1 and the
-    weight 0.5, so that the result at the face is the mean of nodes 0 and 1.
+    The product of the flow coefficient B and the film thickness H is extrapolated to the face on the right of node i.
+    The extrapolation starts from the values at node i and at the node upstream of node i. At the first face, i is 0,
+    and there is no node upstream of node i. The function then returns node 1 and the weight 0.5, so that the result at
+    the face is the mean of nodes 0 and 1.
     """
     if i == 0:
         return 1, 0.5

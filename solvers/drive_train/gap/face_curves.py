@@ -14,7 +14,7 @@ def face_mean(values: FloatArray) -> float:
 
 
 def face_slope(values: FloatArray) -> float:
-    """Compute the slope of a curve: how far the straight line with the best least-squares fit rises over the face.
+    """Compute the slope of a curve: the rise of the least-squares straight line over the whole face.
 
     Parameters
     ----------
@@ -24,7 +24,8 @@ def face_slope(values: FloatArray) -> float:
     Returns
     -------
     float
-        Rise from y = 0 to y = b, in the unit of the values v. The rise is 12 int (eta - 1/2) v d eta with eta = y/b.
+        Rise from y = 0 to y = b, in the unit of the values. The rise is 12 int (eta - 1/2) v d eta, where v are the
+        values and eta is y/b.
 
     Notes
     -----

@@ -208,11 +208,11 @@ def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
     """Follow the tilts of the hubs while the coupling loads grow from zero to their full value.
 
     The path begins at `free`, the hubs without coupling loads. If friction falls with the sliding velocity, a hub can
-    jump between sliding and sticking. At such a jump the share of the coupling loads decreases along the path. The
-    steps therefore have a given length along the path; the share is an unknown. When the length is computed, the change
-    of a hub's tilt is divided by the size of the tilt. The next point of the path lies in a plane. This plane is normal
-    to the step and passes through the end of the step. Newton's iteration finds the point (Allgower and Georg 2003,
-    chapter 2).
+    jump between sliding and sticking. At such a jump the share of the coupling loads decreases along the path. A step
+    therefore has a given length along the path, and the share is an unknown. When the length is computed, the change of
+    a hub's tilt is divided by the size of the tilt. Each step goes along the tangent of the path, so that the end of
+    the step lies near the path. Newton's iteration then finds the next point of the path (Allgower and Georg 2003,
+    chapter 2). This point lies in the plane that is normal to the step and passes through the end of the step.
     """
     share, state, length = 0.0, _evaluate(unit, force, free, 0.0), LONGEST
     direction = np.append(np.zeros(free.tilts.size), 1.0)

@@ -91,7 +91,7 @@ class Passage(NamedTuple):
 
 @kernel
 def ambient(gas: Gas) -> Side:
-    """Return a side that holds ambient gas."""
+    """Return the ambient gas as one side of an opening. The section of this side is 1 m^2."""
     return Side(gas.pressure, gas.density, 1.0)
 
 

@@ -157,7 +157,7 @@ def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> fl
 
 @kernel
 def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int, new_high: int, angle: float) -> None:
-    """Fill every cell whose stroke begins with gas in the state that `_border` computes.
+    """Set the gas in every cell that begins its stroke to the state that `_border` computes.
 
     The active cells were low..high in the step before, and are now new_low..new_high.
     """

@@ -258,10 +258,10 @@ def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
 
 @kernel
 def _own_flux(g: float, area: float, edge: State) -> Conserved:
-    """Compute the flux of a cell's own state at an edge.
+    """Compute the flux through an edge of a cell from the state `edge` of this cell at the edge.
 
-    The ram pressure is computed as the density times the squared velocity. `ram_pressure` multiplies in another order,
-    which leads to other rounding errors.
+    The ram pressure is computed as the density times the squared velocity, and not by the function `ram_pressure`. That
+    function multiplies in another order, and so its result has other rounding errors.
     """
     return flux(g, area, edge, edge.density * edge.velocity**2)
 

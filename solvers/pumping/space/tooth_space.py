@@ -20,9 +20,9 @@ class ToothSpace(NamedTuple):
     """Shape and motion of a space and of the mate's tooth; lengths [m], angles [rad].
 
     A flank is given by its base radius, its half angle at the base circle and its roll length at the tip. The flanks
-    are in contact between the roll lengths `first_contact` and `last_contact` of the owner. `ratio` is the angle of the
-    mate divided by the angle of the owner. `offset` is the angle of the mate while the space is on the line of centres.
-    `backlash_gap` is the distance between the coast flanks along the line of action.
+    are in contact between the roll lengths `first_contact` and `last_contact` of the owner. `ratio` is the rotation of
+    the mate divided by the rotation of the owner. `offset` is the angle of the mate at the moment at which the space is
+    on the line of centres. `backlash_gap` is the distance between the coast flanks along the line of action.
     """
 
     root: RootProfile

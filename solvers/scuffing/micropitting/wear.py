@@ -12,7 +12,7 @@ from solvers.scuffing.results import LoadDistribution
 
 
 class WearDepths(NamedTuple):
-    """Depth of wear of pinion and wheel per revolution of the gear [m]: two maps [profile, face].
+    """Maps [profile, face] of the depth of wear of each gear per revolution of this gear [m].
 
     The depth is NaN near a base circle.
     """
