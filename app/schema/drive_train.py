@@ -574,7 +574,7 @@ class MisalignmentSummary(Group, of=results.Misalignment, without=("curves",)):
 
 
 class MisalignmentState(MisalignmentSummary, of=results.Misalignment):
-    """The gap over the face due to the shafts and due to heat, with curves.
+    """The two gaps over the face, due to the shafts and due to heat, with their curves.
 
     A negative slope means that the gap opens towards the end that meshes first. This end then carries less load.
     """
