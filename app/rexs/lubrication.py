@@ -91,7 +91,7 @@ class Lubrication:
                 self._stage.put("temperatures.oil_supply", supply, self._stage.stage, name)
                 return
             if text:
-                message = f"lubrication by {text[:40]} is not modelled; the value is not used"
+                message = f"the lubrication method {text[:40]} is not modelled; the value is not used"
                 self._reading.find("oil_supply", self._stage.stage, name, message)
         self._supply_by_factor()
 
@@ -103,7 +103,10 @@ class Lubrication:
         if (supply := table.SUPPLY_FACTORS.get(factor)) is not None:
             self._stage.put("temperatures.oil_supply", supply, self._stage.stage, table.SUPPLY_FACTOR)
         else:
-            message = f"no oil supply of the model has the lubrication factor {factor:.4g}; the factor is not used"
+            message = (
+                f"the lubrication factor {factor:.4g} does not belong to any oil supply of the model; the factor is "
+                "not used"
+            )
             self._reading.find("oil_supply", self._stage.stage, table.SUPPLY_FACTOR, message)
 
     def _friction(self) -> None:

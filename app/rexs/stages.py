@@ -35,14 +35,16 @@ def _pair(reading: Reading, stage: Component) -> Pair | None:
     relation = next(iter(model.relations_of("stage", "stage", stage.id)), None)
     first, second = (model.part(relation, role) if relation else None for role in ("gear_1", "gear_2"))
     if first is None or second is None:
-        reading.find("relation_missing", stage, None, "the stage has no relation to two gears; it is left out")
+        reading.find("relation_missing", stage, None, "the stage has no relation to two gears; the stage is left out")
         return None
     teeth = _teeth(reading, stage, first), _teeth(reading, stage, second)
     if teeth[0] is None or teeth[1] is None:
         return None
     shafts = _shaft_of(reading, first), _shaft_of(reading, second)
     if shafts[0] is None or shafts[1] is None or shafts[0].id == shafts[1].id:
-        reading.find("relation_missing", stage, None, "the gears do not sit on two shafts; the stage is left out")
+        reading.find(
+            "relation_missing", stage, None, "the two gears do not sit on two different shafts; the stage is left out"
+        )
         return None
     return Pair(stage, (first, second), (shafts[0], shafts[1]), (teeth[0], teeth[1]))
 
@@ -127,7 +129,10 @@ class StageDraft(Draft):
         if by_power is None and len(stated) == 1:
             return stated[0]
         if by_power is not None and stated and by_power not in stated:
-            message = "according to torque and speed the other gear drives; the other gear is used as the driver"
+            message = (
+                "the file states that this gear drives, but according to torque and speed the other gear drives; the "
+                "other gear is used as the driver"
+            )
             self.reading.find("driver", pair.gears[stated[0]], None, message)
         return by_power
 
@@ -259,7 +264,10 @@ class StageDraft(Draft):
         row, gear = table.HELIX_ANGLE, self.gears[0]
         pinion, wheel = (self._helix_angle(gear) for gear in self.gears)
         if pinion is not None and wheel is not None and abs(pinion + wheel) > SAME * 90.0:
-            message = "the helix angles of an external pair must be opposite; the helix angle of the pinion is used"
+            message = (
+                "the helix angles of an external pair must be equal and of opposite sign; the helix angle of the "
+                "pinion is used"
+            )
             self.reading.find("helix_angles", self.gears[1], row.name, message)
         if pinion is None:
             if wheel is None:
@@ -304,7 +312,7 @@ class StageDraft(Draft):
                 common = min(common, overlap)
             else:
                 self.reading.find(
-                    "faces_apart", self.stage, None, "according to their positions the faces do not overlap"
+                    "faces_apart", self.stage, None, "according to the positions of the gears, the faces do not overlap"
                 )
         self.put(row.field, common, gear, row.name)
         if any(abs(width - common) > SAME * common for width in widths):
@@ -355,7 +363,7 @@ class StageDraft(Draft):
         if not values:
             return None
         if any(abs(value - values[0][0]) > SAME for value, _ in values):
-            message = "left and right flank differ, which is not modelled; the value of the left flank is used"
+            message = "the left and the right flank differ, which is not modelled; the value of the left flank is used"
             self.reading.find("flanks_differ", values[1][1], row.attributes[-1], message)
         self.put(path, *values[0], row.attributes[-1])
         return values[0][0]
@@ -429,7 +437,11 @@ class StageDraft(Draft):
         smallest, tool = min(radii, key=lambda radius_and_tool: radius_and_tool[0])
         self.put(path, smallest, tool, table.TOOL_TIP_RADIUS.attributes[-1])
         if abs(radii[0][0] - radii[-1][0]) > SAME:
-            self.note(path, smallest, "the tools differ; the smaller radius is used for both gears")
+            self.note(
+                path,
+                smallest,
+                "the tools of the two gears have different tip radii; the smaller radius is used for both gears",
+            )
 
     def _backlash(self) -> None:
         """Fill in the normal backlash in the file minus the backlash that results from the centre distance.
@@ -450,7 +462,7 @@ class StageDraft(Draft):
         if own is None or stated < own - SAME:
             message = (
                 f"the stated backlash of {stated:.4g} mm is smaller than the backlash that results from the centre "
-                "distance"
+                "distance; no further backlash is added"
             )
             self.reading.find("backlash", self.stage, name, message)
             own = stated
@@ -533,8 +545,8 @@ class StageDraft(Draft):
         apart = first.apart(second)
         if abs(apart - distance) > OFF_CENTRE * abs(distance):
             message = (
-                f"according to their positions the shafts are {apart:.6g} mm apart; the centre distance of the stage "
-                "is used"
+                f"the positions of the shafts give a distance of {apart:.6g} mm, which differs from the centre "
+                "distance of the stage; the centre distance of the stage is used"
             )
             self.reading.find("centre_distance", self.stage, "center_distance", message)
 

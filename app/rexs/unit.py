@@ -38,7 +38,7 @@ def gear_unit(model: Model) -> dict[str, Any]:
     if len(cases) < len(model.load_cases):
         reading.find("too_many_cases", None, None, f"only the first {len(cases)} load cases are read")
     if len(cases) > MOST_SPECTRUM_CASES:
-        message = f"/v1/spectrum takes at most {MOST_SPECTRUM_CASES} load cases; the file has more"
+        message = f"the file has more load cases than /v1/spectrum accepts; the largest number is {MOST_SPECTRUM_CASES}"
         reading.find("too_many_cases", None, None, message)
     train = Train(reading, all_pairs)
     base, flows = train.flow(), [train.flow(case) for case in cases]
@@ -71,7 +71,8 @@ def _stages(reading: Reading, all_pairs: list[Pair], base: Flow, flows: list[Flo
         row["ignored"] = _rows(islice(unused, MOST_IGNORED))
         if next(unused, None) is not None:
             message = (
-                f"more than {MOST_IGNORED} attributes of the stage {row['id']} are not used; only the first are listed"
+                f"more than {MOST_IGNORED} attributes of the stage {row['id']} are not used; the list contains only "
+                "the first of these attributes"
             )
             reading.find("too_many_ignored", None, None, message)
     return rows
@@ -216,7 +217,8 @@ def _check_relations(reading: Reading) -> None:
         absent = [id_ for _, id_ in relation.parts if id_ not in model.components]
         if absent:
             message = (
-                f"a relation of type {relation.type[:40]} names component {absent[0]}, which the file does not have"
+                f"a relation of type {relation.type[:40]} names component {absent[0]}, but the file has no such "
+                "component"
             )
             reading.find("relation", None, None, message)
         whole, part = relation.part("assembly"), relation.part("part")
@@ -230,5 +232,5 @@ def _check_relations(reading: Reading) -> None:
             path[here] = None
             here = parents[here]
         if here in path:
-            reading.find("cycle", model.components.get(here), None, "the assembly contains itself")
+            reading.find("cycle", model.components.get(here), None, "an assembly in the file contains itself")
         done.update(path)

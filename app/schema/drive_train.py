@@ -169,11 +169,11 @@ class ShaftBearing(Section):
             return self.si(si.RigidBearing)
         if self.type == "linear":
             if self.stiffness_n_per_um is None:
-                raise InvalidInput("bearing_data", "A linear bearing needs its stiffness", "stiffness")
+                raise InvalidInput("bearing_data", "A linear bearing needs a stiffness", "stiffness")
             return self.si(si.LinearBearing)
         if self.diameter_mm is None or self.width_mm is None:
             missing = "diameter" if self.diameter_mm is None else "width"
-            raise InvalidInput("bearing_data", "A journal bearing needs diameter and width", missing)
+            raise InvalidInput("bearing_data", "A journal bearing needs a diameter and a width", missing)
         if self.viscosity_pa_s is not None:
             return self.si(si.JournalBearing)
         if scuffing.oil is None:
@@ -229,7 +229,9 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
             end = position + section.length
             beside = position > face_start + gears.face_width - si.COINCIDENT or end < face_start + si.COINCIDENT
             if left_out and beside:
-                message = f"section {k} is not under the teeth; give its outer diameter"
+                message = (
+                    f"the outer diameter may be left out only under the teeth; give the outer diameter of section {k}"
+                )
                 raise InvalidInput("section_diameter", message, f"{name}.sections.{k}.outer_diameter")
             yield section
             position = end
@@ -334,8 +336,8 @@ class DriveTrainRequest(MeshInOil):
         if "bulk_includes_pumping" in thermal.model_fields_set and not thermal.bulk_includes_pumping:
             raise PydanticCustomError(
                 "exclusive",
-                "thermal.bulk_includes_pumping must be true with the heat balance, which already includes the heat "
-                "of pumping",
+                "set thermal.bulk_includes_pumping to true, because the bulk temperature of the heat balance already "
+                "includes the heat of pumping",
             )
         heat = thermal.model_copy(update={"bulk_includes_pumping": True})
         return self.model_copy(update={"thermal": heat})

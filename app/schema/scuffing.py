@@ -291,12 +291,16 @@ class ContactTemperatures(Section, of=si.Temperatures):
                 if self.bulk_method == "estimated"
                 else "a bulk temperature by heat balance"
             )
-            raise PydanticCustomError("exclusive", "bulk_c and {method} are both given; keep one", {"method": method})
+            raise PydanticCustomError(
+                "exclusive",
+                "bulk_c and {method} are both given; leave bulk_c out, or set bulk_method to given",
+                {"method": method},
+            )
         if self.bulk_method == "heat_balance" and self.oil_supply != "spray":
             raise PydanticCustomError(
                 "exclusive",
-                "the heat balance holds only for gears under jets (oil_supply spray); for gears that dip into oil, set "
-                "bulk_method to estimated, or give a measured bulk_c",
+                "the heat balance holds only for gears under jets (oil_supply spray). For gears that dip into oil, "
+                "set bulk_method to estimated, or give a measured bulk_c",
             )
         return self
 

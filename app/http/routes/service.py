@@ -46,7 +46,7 @@ async def show_example(name: Annotated[str, Path(description="name of the exampl
     try:
         return examples()[name]
     except KeyError:
-        raise HTTPException(404, "There is no example of this name; GET /v1/examples lists them") from None
+        raise HTTPException(404, "There is no example with this name; GET /v1/examples lists all examples") from None
 
 
 @router.get("/healthz")
