@@ -328,7 +328,7 @@ def test_a_section_under_the_teeth_takes_the_diameter_that_carries_torsion() -> 
     twists = [answer["misalignment"]["parts"]["torsion"] for answer in (by_rule, explicit, integral)]
     assert twists[0] == pytest.approx(twists[1], rel=1e-9)
     assert 1.13 < twists[0] / twists[2] < 1.18
-    with pytest.raises(Unprocessable, match="section 1 is not under the teeth; give its outer diameter") as refusal:
+    with pytest.raises(Unprocessable, match="only under the teeth; give the outer diameter of section 1") as refusal:
         solved(TRAIN, TURBO, {"pinion_shaft.sections.1.outer_diameter_mm": GONE})
     assert (refusal.value.code, refusal.value.path) == (
         "section_diameter",

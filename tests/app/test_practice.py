@@ -292,13 +292,13 @@ SLACK = (
         (
             LOAD_DISTRIBUTION,
             {"load.power_kw": 900},
-            "the Hertzian pressure of 5917 MPa exceeds the strength of steel; was the load entered too high?",
+            "the Hertzian pressure of 5917 MPa exceeds the strength of steel; is the load correct?",
         ),
         (
             TRAIN,
             {"operation.power_kw": 120e3},
             (
-                "the tooth force of 799.8 N per mm of face width and mm of module breaks a steel tooth; "
+                "the tooth force is 799.8 N per mm of face width and per mm of module, which breaks a steel tooth; "
                 "was a value entered in the wrong unit (W or N mm)?"
             ),
         ),

@@ -768,8 +768,7 @@ class SpectrumPage(StudyPage):
         case = self.case
         text = as_typed(self.views.get("cases", "")) or _suggested(self.calculation, case)
         about = (
-            "The first line names the columns: name, share (of the operating time), and fields as in the form or "
-            "request.",
+            "The first line names the columns: name, share (of the operating time), and fields as in the form.",
             "One line per case; columns are separated by tabs or semicolons, as in a spreadsheet.",
             "An empty cell leaves the value of the case unchanged.",
         )
