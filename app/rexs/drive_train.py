@@ -56,7 +56,7 @@ def _obstacles(stage: StageDraft) -> Iterator[tuple[Component, str]]:
         if stage.face_interval(place) is None:
             yield gear, "the file does not say at which position of the shaft the gear sits"
     if stage.driver is None or not stage.flow.knows(stage.pair):
-        yield stage.stage, "power and speed of this stage do not follow from the file"
+        yield stage.stage, "the file does not determine the power and the speed of this stage"
 
 
 def bearings_of(stage: StageDraft, shaft: Component) -> list[Component]:
@@ -180,7 +180,7 @@ class _DriveTrain:
             inner, end_inner = (reading.number(part, f"inner_diameter_{end}", "mm") or 0.0 for end in ("begin", "end"))
             if length is None or length <= 0.0 or outer is None or end_outer is None:
                 reading.find(
-                    "section", part, "length", "the section has no length or no diameters; the section is left out"
+                    "section", part, "length", "the section has no length or no diameter; the section is left out"
                 )
                 continue
             begin = reading.number(part, "u_coordinate_on_shaft", "mm")

@@ -36,7 +36,7 @@ class Modifications:
         side = self._working_side(place)
         if side is None:
             side = "right" if sides.get("right") else "left"
-            self._stage.note("modifications", side, "which flank carries the load is not known")
+            self._stage.note("modifications", side, "it is not known which flank carries the load")
         modifications = sides.get(side, [])
         for item in modifications:
             if item.type in table.OTHER_MODIFICATIONS:
@@ -158,7 +158,7 @@ class Modifications:
                 continue
             sums[item.type] += sense * amount
             origins[item.type] = item
-        where = {"profile_slope": "tip", "helix_slope": "face where u is largest (the non-datum face)"}
+        where = {"profile_slope": "tip", "helix_slope": "the end of the face where u is largest (the non-datum face)"}
         for kind, total in sums.items():
             if kind in origins:
                 path = f"modifications.{kind}_um"

@@ -61,7 +61,7 @@ def _teeth(reading: Reading, stage: Component, gear: Component) -> int | None:
         reading.find("ring_gear", gear, "number_of_teeth", message)
         return None
     if number is None or number != int(number) or not 1 <= number <= 10_000:
-        reading.find("teeth", gear, "number_of_teeth", "the number of teeth is not possible; the stage is left out")
+        reading.find("teeth", gear, "number_of_teeth", "the number of teeth is not permissible; the stage is left out")
         return None
     return int(number)
 
@@ -257,7 +257,11 @@ class StageDraft(Draft):
         cosine = cos(radians(self.fields.get(table.HELIX_ANGLE.field, 0.0)))
         modules = self.values_of(self.gears, table.TRANSVERSE_MODULE)
         if modules:
-            self.note(table.MODULE.field, modules[0][0] * cosine, "the transverse module times the cosine of the helix")
+            self.note(
+                table.MODULE.field,
+                modules[0][0] * cosine,
+                "computed as the transverse module times the cosine of the helix angle",
+            )
         return [(value * cosine, gear) for value, gear in modules]
 
     def _helix(self) -> None:
@@ -316,7 +320,7 @@ class StageDraft(Draft):
                 )
         self.put(row.field, common, gear, row.name)
         if any(abs(width - common) > SAME * common for width in widths):
-            self.note(row.field, common, "the face that both gears have in common")
+            self.note(row.field, common, "the part of the face that both gears have in common")
 
     def _pressure_angle(self) -> None:
         row = table.PRESSURE_ANGLE
@@ -561,11 +565,15 @@ class StageDraft(Draft):
             elif values:
                 value, component = values[0]
                 self.put(row.field, abs(value), component, row.name)
-                self.note(row.field, abs(value), f"the {what} that the file states of the gear")
+                self.note(row.field, abs(value), f"the {what} that the file states for the gear")
             else:
-                self.lacks(row.field, self.shafts[0], None, f"the {what} of this stage does not follow from the file")
+                self.lacks(row.field, self.shafts[0], None, f"the file does not determine the {what} of this stage")
         if self.driver is None:
-            self.note("gears.pinion", self.gears[0].id, "which gear drives is not known; the smaller gear is used")
+            self.note(
+                "gears.pinion",
+                self.gears[0].id,
+                "it is not known which gear drives; the smaller gear is taken as the driver",
+            )
 
 
 class Involute:

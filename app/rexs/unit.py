@@ -90,7 +90,9 @@ def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], S
         for path in (TORQUE, SPEED, table.OIL_TEMPERATURE.field):
             if path in stage.fields:
                 stage.note(
-                    path, stage.fields[path], f"taken from the load case {case.name}, because the model states no value"
+                    path,
+                    stage.fields[path],
+                    f"the value is taken from the load case {case.name}, because the model states no value",
                 )
     # Fields of the mesh come first, then fields of the oil.
     paths = sorted({**stage.fields, **stage.missing}, key=lambda path: path.partition(".")[0] not in MESH)
@@ -204,9 +206,15 @@ def _shares(readings: list[Reading]) -> tuple[list[float], str | None]:
         values = [reading.number(unit, name, size) for reading in readings]
         valid = [value for value in values if value is not None and value >= 0.0]
         if len(valid) == len(values) and sum(valid) > 0.0:
-            reason = f"shares from the attribute {name}, which is not part of the standard" if name in own else None
+            reason = (
+                f"the shares are taken from the attribute {name}, which is not part of the standard"
+                if name in own
+                else None
+            )
             return [value / sum(valid) for value in valid], reason
-    return [1.0 / len(readings)] * len(readings), "the file states no shares of the load cases; equal shares are used"
+    return [1.0 / len(readings)] * len(
+        readings
+    ), "the file does not state the shares of the load cases; equal shares are used"
 
 
 def _check_relations(reading: Reading) -> None:
