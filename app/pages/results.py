@@ -265,7 +265,7 @@ def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[
     level, standing = _standing(worse, limit, greatest_is_best=view.greatest_is_best)
     name = f"{shown(limit, 4)} {leaf.unit or ''}".strip()
     verdict = f"{judge.title}: {words(said)}" if judge and said is not None else standing.format(name)
-    return level, f"{verdict} at the worse end of the band" if len(ends) > 1 else verdict
+    return level, f"{verdict}, at the worse end of the band" if len(ends) > 1 else verdict
 
 
 def _standing(value: float, limit: float, *, greatest_is_best: bool) -> tuple[str, str]:
