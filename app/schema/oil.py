@@ -52,8 +52,8 @@ class SheetOil(Section):
             OilSheet,
             "kinematic_viscosity_100",
             default_text="by the viscosity index, else typical of the kind of oil",
-            assumed="typical of the kind of oil: viscosity index 94 to 102 of mineral oils, 150 of PAO and ester, 210 "
-            "of polyglycols",
+            assumed="a typical viscosity index of the kind of oil is used: 94 to 102 for mineral oils, 150 for PAO and "
+            "ester, 210 for polyglycols",
         ),
     ] = None
     viscosity_index: Annotated[
