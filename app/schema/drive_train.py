@@ -48,7 +48,7 @@ class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
             "rack_tip_radius",
             text="tip radius coefficient of the rack, of mesh and pumped spaces alike",
             default_text=f"{RACK_A} for the mesh, {GROUND_FILLET} for the pumped spaces",
-            assumed=f"for the mesh, rack A of ISO 53 ({RACK_A}); for the pumped spaces, a ground fillet ({GROUND_FILLET})",
+            assumed=f"for the mesh, rack A of ISO 53 ({RACK_A}); for the spaces, a ground fillet ({GROUND_FILLET})",
         ),
     ] = None
 
@@ -101,8 +101,8 @@ class CylindricalSection(Section, of=si.ShaftSection):
             "outer_diameter",
             text="under the teeth the diameter that carries torsion",
             default_text="under the teeth d - m_n h_fP*; required elsewhere",
-            assumed="under the teeth, d - m_n h_fP* is used, which is about the root diameter plus a third of the tooth "
-            "depth; with the reference diameter, the computed torsion would be too small",
+            assumed="under the teeth, d - m_n h_fP* is used, which is about the root diameter plus a third of the "
+            "tooth depth; with the reference diameter, the computed torsion would be too small",
         ),
     ] = None
 
@@ -133,8 +133,8 @@ class ShaftBearing(Section):
             ge=1e-5,
             le=100,
             default_text="the gears' oil at the film temperature",
-            assumed="the viscosity of the gears' oil at the film temperature. If no film temperature is given, the film "
-            f"temperature is taken from the heat balance; without a heat balance it is {si.FILM_ABOVE_OIL:.0f} K "
+            assumed="the viscosity of the gears' oil at the film temperature. If no film temperature is given, the "
+            f"film temperature is taken from the heat balance; without a heat balance it is {si.FILM_ABOVE_OIL:.0f} K "
             "above the oil temperature",
         ),
     ] = None

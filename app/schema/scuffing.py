@@ -371,7 +371,7 @@ ESTER_FACTOR = (
 ESTER_FILM = (
     f"{ESTER_FACTOR}. For the film against micropitting, the pressure-viscosity coefficient of a mineral oil is used"
 )
-NOT_VALIDATED, KNOWN = "not_validated", f"accurate to about {KNOWN_WITHIN:g}"
+NOT_VALIDATED, KNOWN = "not_validated", f"known to about ±{KNOWN_WITHIN:g} K"
 GIVEN_BULK = (
     "a given bulk temperature does not change with the oil temperature. If only the oil becomes hotter, the stated "
     "safety rises, because the safety compares temperature differences from the oil temperature"

@@ -94,7 +94,7 @@ def test_a_coefficient_of_friction_says_by_itself_that_it_is_given() -> None:
     by_oil = solved(SCUFFING, STAGE, {})
     assert by_oil["inputs"]["model"]["friction"] == "iso_tr_13989"
     assert by_oil["inputs"]["friction_coefficient"] is None
-    assert "K_Hα is taken as 1" in reasons(by_oil)["model.friction"]
+    assert "with K_Hα = 1" in reasons(by_oil)["model.friction"]
     given = solved(SCUFFING, STAGE, {"friction_coefficient": 0.06})
     assert given["inputs"]["model"]["friction"] == "given"
     assert given["friction_loss"]["coefficient"] == given["flash"]["friction_coefficient"] == 0.06

@@ -302,7 +302,9 @@ def test_a_tolerance_that_the_model_does_not_use_is_said() -> None:
     body["tolerances"]["inputs"].append(drawn)
     *_, end = solved(body)
     (note,) = end["notes"]
-    assert note.startswith("the tolerance of friction_coefficient has no effect; not used: `model.friction` asks for")
+    assert note.startswith(
+        "the tolerance of friction_coefficient has no effect; not used, because `model.friction` selects"
+    )
     body["request"]["model"]["friction"] = "given"
     *_, end = solved(body)
     assert end["notes"] == []
