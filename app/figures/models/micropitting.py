@@ -148,7 +148,7 @@ def wear_on_flank(inputs: ScuffingInputs, result: Scuffing | DriveTrainResult) -
         raise NoFigure("no_wear", message, "gears")
     width, highest = inputs.distribution.gears.face_width, max(wear.pinion_max, wear.wheel_max)
     if highest == 0.0:
-        raise NoFigure("no_load", "Without load nothing wears", "load")
+        raise NoFigure("no_load", "Without load there is no wear", "load")
     panels = []
     for gear, grid in (("pinion", wear.pinion_map), ("wheel", wear.wheel_map)):
         depth = axis(Wear, f"{gear}_map", "depth of wear")
