@@ -54,7 +54,8 @@ def motion_notices(
         yield Notice("sliding_velocity", message, "misalignment")
     if thrust.indeterminate:
         message = (
-            "no tooth slides. Friction can then balance any thrust between the bounds; the mean of the bounds is stated"
+            "no tooth slides. Friction can then balance any thrust between the bounds; the thrust is stated as the "
+            "mean of the bounds"
         )
         yield Notice("friction_indeterminate", message, "axial_velocity")
     elif thrust.self_induced is not None and sliding == 0.0:
@@ -108,7 +109,12 @@ def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication:
         yield from oil_temperature(inputs.lubricant.temperature, "lubricant.temperature")
     half_face = inputs.coupling.face_width / 2.0
     if lubrication.hertz_half_width > half_face:
-        yield Notice("wide_contact", "the contact at rest is wider than the tooth face", "face_width", rank="invalid")
+        yield Notice(
+            "wide_contact",
+            "even without travel, the contact is wider than the tooth face",
+            "face_width",
+            rank="invalid",
+        )
     if kinematics.max_contact_travel >= half_face:
         message = (
             f"the contact travels {kinematics.max_contact_travel * 1e3:.3g} mm and leaves the tooth face; there is no "

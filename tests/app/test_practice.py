@@ -298,7 +298,7 @@ SLACK = (
             TRAIN,
             {"operation.power_kw": 120e3},
             (
-                "the tooth force is 799.8 N per mm of face width and per mm of module, which breaks a steel tooth; "
+                "a tooth force of 799.8 N per mm of face width and per mm of module breaks a steel tooth; "
                 "was a value entered in the wrong unit (W or N mm)?"
             ),
         ),
