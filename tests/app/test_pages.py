@@ -366,7 +366,7 @@ def test_names_of_a_report_are_whole_or_refused() -> None:
     assert "<dd>ABC</dd>" in html
     assert "one\ntwo</dd>" in html
     for name, longest in (("author", 200), ("notes", 2000)):
-        with pytest.raises(Unprocessable, match=f"{name}: {longest + 1} characters"):
+        with pytest.raises(Unprocessable, match=f"{name} has {longest + 1} characters"):
             views.report(asked("fzg-type-a", **{name: "n" * (longest + 1)}), "")
 
 
