@@ -396,7 +396,7 @@ def test_a_study_of_too_many_solutions_is_refused_with_an_estimate() -> None:
     body = coupling(tolerances=friction(count=1024, replicates=100))
     pointer, code, message = fault_of(Spectrum, body, most=20_000)
     assert (pointer, code) == ("/tolerances/count", "too_many_points")
-    assert "is 102400; the limit is 20000" in message
+    assert "is 102400, but at most 20000 are allowed" in message
     assert " s on one core" in message
 
 
