@@ -218,7 +218,7 @@ def test_from_a_data_sheet_to_a_safety_factor_in_one_request() -> None:
         (
             "/v1/scuffing",
             {"temperatures": {"bulk_method": "estimated", "bulk_c": 90}},
-            "bulk_c and an estimated bulk temperature are both given; keep one",
+            "bulk_c and an estimated bulk temperature are both given; leave bulk_c out, or set bulk_method to given",
         ),
         (
             "/v1/scuffing",
