@@ -31,7 +31,7 @@ def main() -> None:
     rexs.add_argument("file", type=Path, help="a .rexs, .rexsj or .rexsz file")
     solve = commands.add_parser("solve", help="print the answer to a request instead of serving")
     solve.add_argument("endpoint", help="address of the calculation, such as /v1/coupling")
-    solve.add_argument("file", type=Path, help="the request as JSON; - reads the standard input")
+    solve.add_argument("file", type=Path, help="file with the request as JSON; - stands for the standard input")
     compiling = commands.add_parser("compile", help="compile the kernels and keep them on disk instead of serving")
     compiling.add_argument("stages", nargs="*", help="names of stages, such as coupling; by default all")
     arguments = parser.parse_args()

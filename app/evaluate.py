@@ -37,9 +37,25 @@ def content_of(body: bytes) -> Any:
         nonlocal objects
         objects += 1
         if objects > MOST_OBJECTS:
-            raise InvalidBody([Fault("", "too_many_objects", f"the body has more than {MOST_OBJECTS} objects")])
+            raise InvalidBody(
+                [
+                    Fault(
+                        "",
+                        "too_many_objects",
+                        f"the body contains too many objects; at most {MOST_OBJECTS} are allowed",
+                    )
+                ]
+            )
         if len(pairs) > MOST_MEMBERS:
-            raise InvalidBody([Fault("", "too_many_fields", f"an object has more than {MOST_MEMBERS} fields")])
+            raise InvalidBody(
+                [
+                    Fault(
+                        "",
+                        "too_many_fields",
+                        f"an object of the body contains too many fields; at most {MOST_MEMBERS} are allowed",
+                    )
+                ]
+            )
         content = dict(pairs)
         if len(content) < len(pairs):
             name, _ = Counter(name for name, _ in pairs).most_common(1)[0]
@@ -64,8 +80,8 @@ def refuse_endless(calculation: Calculation, request: Request, deadline_s: float
         if cost.seconds > deadline_s:
             raise Unprocessable(
                 "cannot_finish",
-                f"the calculation would take about {cost.seconds:.0f} s, but calculations end after {deadline_s:g} s; "
-                "reduce this value",
+                f"the calculation would take about {cost.seconds:.0f} s, but the time limit is {deadline_s:g} s; "
+                "reduce the value of this field",
                 cost.field,
             )
 

@@ -99,7 +99,7 @@ def _check(value: Any, ends: _Ends | None, name: str) -> None:
         if ends is not None and not ends.least <= value <= ends.greatest:
             unit = f" {UNITS[ends.declared.unit].symbol}" if ends.declared.unit else ""
             shown = f"{ends.declared.from_si(float(value)):.12g}{unit}"
-            message = f"{name} is {shown}; permissible {allowed(ends.declared) or 'are finite numbers'}{unit}"
+            message = f"{name} is {shown}; permissible: {allowed(ends.declared) or 'finite numbers'}{unit}"
             message += advice(ends.declared, ends.declared.from_si(float(value)))
             raise InvalidInput("out_of_range", message, name)
     elif is_dataclass(value):

@@ -135,8 +135,8 @@ class Lubricant:
         if not logarithm < log(HIGHEST_VISCOSITY):
             message = (
                 f"at {temperature:g} K the law of the oil gives a viscosity of 10^{logarithm / log(10.0):.2g} Pa s, "
-                f"above the limit of {HIGHEST_VISCOSITY:g} Pa s; bring the temperatures nearer to the reference "
-                "temperature, or lower the temperature-viscosity coefficient"
+                f"but the largest permissible viscosity is {HIGHEST_VISCOSITY:g} Pa s; bring the temperatures nearer "
+                "to the reference temperature, or lower the temperature-viscosity coefficient"
             )
             raise InvalidInput("viscosity_range", message, "lubricant.temperature_viscosity")
         return float(np.exp(log_viscosity(laws, pressure_part(laws, pressure)[0], temperature)[0]))

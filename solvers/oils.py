@@ -229,8 +229,8 @@ class OilSheet:
         if not least <= index <= largest:
             message = (
                 f"viscosities of {thick / SQUARE_MILLIMETRE:.4g} mm²/s at 40 °C and {thin / SQUARE_MILLIMETRE:.4g} "
-                f"mm²/s at 100 °C correspond to a viscosity index of {index:.3g}, but oils have {least:g} to "
-                f"{largest:g}; check both viscosities"
+                f"mm²/s at 100 °C correspond to a viscosity index of {index:.3g}, but oils have an index from "
+                f"{least:g} to {largest:g}; check both viscosities"
             )
             raise InvalidInput("viscosity_index", message, field)
 

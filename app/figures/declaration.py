@@ -64,5 +64,7 @@ class Declaration:
 def present(part: T | None) -> T:
     """Return a part of a result. Raise NoFigure if the part is None, that is, if the case has no solution."""
     if part is None:
-        raise NoFigure("no_solution", "The answer lacks what this figure shows, so there is nothing to draw")
+        raise NoFigure(
+            "no_solution", "The answer does not contain the values that this figure shows, so there is nothing to draw"
+        )
     return part

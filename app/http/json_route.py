@@ -40,7 +40,7 @@ class JsonRoute(APIRoute):
             media_type = http.headers.get("content-type", "").partition(";")[0].strip().lower()
             kind, _, subtype = media_type.partition("/")
             if kind != "application" or subtype.rpartition("+")[2] != "json":
-                raise HTTPException(415, "send the header Content-Type: application/json")
+                raise HTTPException(415, "send the request with the header Content-Type: application/json")
             read = _ReadRequest(http.scope, http.receive)
             read.content = content_of(await read.body())
             try:

@@ -12,10 +12,10 @@ COLUMNS = (
     *("field", "endpoints", "type", "unit", "range", "default", "symbol", "source", "meaning", "solver", "schema"),
 )
 SECTIONS = {
-    "Requests": "What a calculation takes.",
-    "Answers": "What a calculation answers.",
-    "Studies": "What a study takes; its `request` is that of the endpoint it studies.",
-    "Service": "What the other addresses answer.",
+    "Requests": "The inputs of the calculations.",
+    "Answers": "The results of the calculations.",
+    "Studies": "The inputs of the studies. The field `request` contains a request of the endpoint that is studied.",
+    "Service": "The answers of the other addresses.",
 }
 BAR = "\N{BROKEN BAR}"  # replaces an escaped bar while a row is split
 

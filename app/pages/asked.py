@@ -24,7 +24,10 @@ def asked_in(calculation: Calculation, text: str, root: str, answers: Mapping[st
     given = {name: value for name, value in looks.items() if value}
     if (example := examples().get(dict(sent).get("example", ""))) is not None:
         if example.endpoint != calculation.path:
-            raise Unreadable(f"The example {example.name} belongs to the page {page_path(BY_PATH[example.endpoint])}")
+            raise Unreadable(
+                f"The example {example.name} belongs to the page {page_path(BY_PATH[example.endpoint])}; open the "
+                "example there"
+            )
         sent = pairs_of_query(example_link(calculation, example).partition("?")[2])
         return Asked(page_path(calculation), sent, given, root=root), False
     pairs = normalised(calculation.request, sent)

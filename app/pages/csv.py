@@ -70,7 +70,9 @@ def curve(response: Response, path: str) -> bytes:
     contents = {leaf.path: content for leaf in wanted if (content := value_at(response, leaf.path))}
     shape = max((leaf.dimensions for leaf in wanted if leaf.path in contents), default=0)
     if shape == 0:
-        raise Unprocessable("unknown_curve", f"Available curves: {', '.join(curves(response))}", "curve")
+        raise Unprocessable(
+            "unknown_curve", f"This curve does not exist. The curves are {', '.join(curves(response))}", "curve"
+        )
     chosen = [leaf for leaf in wanted if leaf.path in contents and leaf.dimensions == shape]
     names = dict.fromkeys(name for leaf in chosen for name in leaf.axes)
     axes = [axis for name in names if (axis := leaf_at(model, name))]

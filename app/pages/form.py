@@ -329,7 +329,7 @@ def _own(leaf: Leaf, name: str, state: State) -> FieldView:
             widget="number",
             text=state.texts.get(f"{name}.{row}.{column}", whole.text if row == column == 0 else ""),
             placeholder=f"{resolved[row][column]:.6g}" if resolved else "",
-            help=(*whole.help, "The first element alone: the same in every direction."),
+            help=(*whole.help, "If only the first element is given, the stiffness is the same in every direction."),
             fault=state.faults.get(f"{name}.{row}.{column}", whole.fault if row == column == 0 else None),
         )
         for row, column in product(range(SIDE), repeat=2)

@@ -182,7 +182,7 @@ def body_of(model: type[Documented], pairs: Pairs) -> dict[str, Any]:
     for name, text in pairs:
         parts = name[:LONGEST_NAME].split(".")
         if len(parts) > DEEPEST or not all(parts):
-            raise Unreadable("The name of a field consists of words separated by points")
+            raise Unreadable("The name of a field must consist of words separated by points")
         place = body
         for part in parts[:-1]:
             place = place.setdefault(part, {})
@@ -191,7 +191,7 @@ def body_of(model: type[Documented], pairs: Pairs) -> dict[str, Any]:
         if isinstance(place.get(parts[-1]), dict) and text == PRESENT:
             continue
         if parts[-1] in place:
-            raise Unreadable("A field occurs twice")
+            raise Unreadable("The query contains the same field twice")
         place[parts[-1]] = _value(model, name, text)
     content: dict[str, Any] = _with_lists(model, body)
     return content

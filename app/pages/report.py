@@ -139,7 +139,7 @@ def _said(name: str, text: str, longest: int) -> str:
     Some invisible characters would reverse the direction of the text.
     """
     if len(text) > longest:
-        message = f"{name}: {len(text)} characters; at most {longest} have room on the report"
+        message = f"{name} has {len(text)} characters, but the report has room for {longest} characters only"
         raise Unprocessable("too_long", message, None)
     lines = text.splitlines() if name == "notes" else [" ".join(text.split())]
     return "\n".join("".join(letter for letter in line if category(letter) not in {"Cc", "Cf"}) for line in lines)

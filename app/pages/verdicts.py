@@ -65,9 +65,13 @@ def _thrust(response: CouplingResponse) -> Verdict:
     share, customary, held = thrust.fraction_of_limit, thrust.customary_force_n, thrust.design_force_n
     limit = number(thrust.coaxial_limit_n, "N")
     level = "good" if share is None or abs(share) <= NEAR_LIMIT else "near"
-    moving = "no load" if share is None else f"in motion {percent(abs(share))} of the limit {limit} of coaxial shafts"
+    moving = (
+        "no load"
+        if share is None
+        else f"the thrust in motion is {percent(abs(share))} of the limit of coaxial shafts, {limit}"
+    )
     if customary is None:
-        return Verdict(level, f"{moving}; for the customary thrust 0.25 T/D give the shaft diameter")
+        return Verdict(level, f"{moving}; to compare with the customary thrust 0.25 T/D, give the shaft diameter")
     exceeds = held > customary
     side = "exceeds" if exceeds else "is below"
     return Verdict(
@@ -89,15 +93,18 @@ def _coupling(response: CouplingResponse) -> str:
     """Say whether the coupling locks axially, how its teeth are lubricated and how far it may be tilted."""
     thrust, most = response.axial_thrust, response.limits.allowable_misalignment_deg
     if thrust.fraction_of_limit is None:
-        locks = "It carries no load, so that no friction locks it axially"
+        locks = "The coupling carries no load, so no friction locks the coupling axially"
     elif thrust.indeterminate:
-        locks = f"It locks axially: its teeth stick, up to a thrust of {number(thrust.coaxial_limit_n, 'N')}"
+        locks = f"The coupling locks axially: its teeth stick, up to a thrust of {number(thrust.coaxial_limit_n, 'N')}"
     else:
         share = percent(abs(thrust.fraction_of_limit))
-        locks = f"It does not lock axially: its teeth slide, and its thrust is {share} of that of coaxial shafts"
+        locks = (
+            f"The coupling does not lock axially: its teeth slide. Its thrust is {share} of the thrust of coaxial "
+            "shafts"
+        )
     regime = response.lubrication.regime.name
     tilt = "no misalignment" if most is None else f"a misalignment up to {number(most, '°')}"
-    return f"{locks}. Its teeth run in {regime}; the limit of the sliding velocity permits {tilt}."
+    return f"{locks}. The teeth run in {regime}. The limit of the sliding velocity permits {tilt}."
 
 
 def _spaces(response: PumpingResponse) -> dict[str, Any]:
@@ -114,7 +121,7 @@ def _axial(gear: str, space: Any, response: PumpingResponse) -> Verdict:
     supersonic = space.peak_axial_mach > 1.0 and not space.axial_choked
     inside = "; inside the spaces the gas is faster than sound" if supersonic else ""
     level = "bad" if space.axial_choked else "near" if supersonic else "good"
-    text = f"axial choking, {gear} spaces: {'yes' if space.axial_choked else 'no'}{inside}"
+    text = f"axial choking in the spaces of the {gear}: {'yes' if space.axial_choked else 'no'}{inside}"
     return _as_known(Verdict(level, text), response.resolution.axial_mach, "the Mach number")
 
 
@@ -123,7 +130,7 @@ def _radial(gear: str, space: Any, response: PumpingResponse) -> Verdict:
 
     The verdict is marked as doubtful if the pressure is too uncertain.
     """
-    text = f"radial choking, {gear} spaces: {'yes' if space.radial_choked else 'no'}"
+    text = f"radial choking in the spaces of the {gear}: {'yes' if space.radial_choked else 'no'}"
     verdict = Verdict("bad" if space.radial_choked else "good", text)
     return _as_known(verdict, response.resolution.peak_pressure, "the pressure above ambient")
 
@@ -144,9 +151,9 @@ def _pumping(response: PumpingResponse) -> str:
     resolution = response.resolution
     doubt = max(resolution.axial_mach, resolution.peak_pressure)
     if doubt > UNCERTAIN:
-        return f"Whether the mesh is choked is not known: its numbers are uncertain by {percent(doubt)}."
+        return f"It is not known whether the mesh is choked, because the results are uncertain by {percent(doubt)}."
     if not ends and not clearances:
-        return "The mesh is not choked: neither an end nor a radial clearance becomes sonic."
+        return "The mesh is not choked: the flow is below the speed of sound at the ends and at the radial clearances."
     parts = []
     if ends:
         parts.append(f"at an end of the {listed(ends)}")

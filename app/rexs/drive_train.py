@@ -49,16 +49,16 @@ def _obstacles(stage: StageDraft) -> Iterator[tuple[Component, str]]:
     for gear, shaft, place in zip(stage.gears, stage.shafts, (0, 1), strict=True):
         parts = stage.reading.model.parts_of(shaft.id)
         if any("gear" in part.type.split("_") and part.id != gear.id for part in parts):
-            yield shaft, "the shaft carries another gear; a shaft with two meshes is not modelled"
+            yield shaft, "the shaft carries another gear; shafts with two meshes are not modelled"
         bearings = bearings_of(stage, shaft)
         if len(bearings) != len(NAMES):
-            yield shaft, f"the shaft has {len(bearings)} radial bearings in the casing; two are needed"
+            yield shaft, f"the shaft has {len(bearings)} radial bearings in the casing; exactly two are needed"
         if stage.reading.axis(shaft) is None:
             yield shaft, "the file does not say where the shaft lies (support_vector)"
         if stage.face_interval(place) is None:
-            yield gear, "the file does not say where on its shaft the gear sits"
+            yield gear, "the file does not say at which position of the shaft the gear sits"
     if stage.driver is None or not stage.flow.knows(stage.pair):
-        yield stage.stage, "power and speed of this stage do not follow from the file"
+        yield stage.stage, "the file does not determine the power and the speed of this stage"
 
 
 def bearings_of(stage: StageDraft, shaft: Component) -> list[Component]:
@@ -189,7 +189,7 @@ class _DriveTrain:
             inner, end_inner = (reading.number(part, f"inner_diameter_{end}", "mm") or 0.0 for end in ("begin", "end"))
             if length is None or length <= 0.0 or outer is None or end_outer is None:
                 reading.find(
-                    "section", part, "length", "the section has no length or no diameters; the section is left out"
+                    "section", part, "length", "the section has no length or no diameter; the section is left out"
                 )
                 continue
             begin = reading.number(part, "u_coordinate_on_shaft", "mm")
@@ -213,7 +213,9 @@ class _DriveTrain:
         for section in sections:
             here = joined[-1].end if joined else section.begin
             if abs(section.begin - here) > SHORTEST_SECTION:
-                self._reading.find("section", shaft, None, "the sections of the shaft leave a gap or overlap")
+                self._reading.find(
+                    "section", shaft, None, "between the sections of the shaft there is a gap or an overlap"
+                )
             if section.end - here >= SHORTEST_SECTION:
                 joined.append(section._replace(begin=here))
         return joined
@@ -234,7 +236,9 @@ class _DriveTrain:
                 if high - low >= SHORTEST_SECTION:
                     cylinders.append(Section(low, high, gear.reference_diameter if grown else outer, inner))
         if changed:
-            reason = "under the teeth the reference diameter is used, as in ISO 6336-1"
+            reason = (
+                "the outer diameter of the shaft under the teeth is set to the reference diameter, as in ISO 6336-1"
+            )
             self._stage.note(f"{NAMES[place]}.sections", gear.reference_diameter, reason)
         return cylinders
 
@@ -268,7 +272,7 @@ class _DriveTrain:
         if stiffness is not None and stiffness >= RIGID_FROM_N_PER_UM:
             return fields | {"type": "rigid"}
         if not stiffness or stiffness < 0.0:
-            message = "the file has no radial stiffness of the bearing"
+            message = "the file does not state the radial stiffness of the bearing"
             stage.lacks(f"{path}.stiffness_n_per_um", bearing, "radial_stiffness", message)
             return fields | {"type": "linear"}
         return fields | {"type": "linear", "stiffness_n_per_um": stiffness}

@@ -19,13 +19,13 @@ class Lubrication:
     def _oil(self) -> None:
         oil = self._stage.lubricant
         if oil is None:
-            self._stage.lacks("lubricant", self._stage.stage, None, "film and scuffing safety need an oil")
+            self._stage.lacks(
+                "lubricant", self._stage.stage, None, "without an oil there is no film and no scuffing safety"
+            )
             return
         if self._reading.text(oil, "kind") == "grease":
-            self._reading.find(
-                "grease", oil, "kind", "the lubricant is a grease, which is not modelled; the lubricant is not used"
-            )
-            self._stage.lacks("lubricant", oil, "kind", "film and scuffing safety need an oil")
+            self._reading.find("grease", oil, "kind", "greases are not modelled; the lubricant in the file is not used")
+            self._stage.lacks("lubricant", oil, "kind", "without an oil there is no film and no scuffing safety")
             return
         viscosities = table.OIL[:2]
         if None in [self._reading.number(oil, row) for row in viscosities]:
@@ -63,10 +63,10 @@ class Lubrication:
             self._stage.assume(path, "mineral", "the file does not give the base oil")
             return
         self._reading.find(
-            "oil_kind", oil, None, f"an oil of the kind {vague[:40]} is not modelled; choose the nearest kind"
+            "oil_kind", oil, None, f"there is no model for an oil of the kind {vague[:40]}; choose the nearest kind"
         )
         self._stage.lacks(
-            path, oil, None, f"choose the kind nearest to {vague[:40]}; without a choice a mineral oil is used"
+            path, oil, None, f"choose the kind of oil that is nearest to {vague[:40]}; otherwise a mineral oil is used"
         )
 
     def _temperatures(self) -> None:
@@ -82,7 +82,7 @@ class Lubrication:
         if bulks:
             self._stage.put(row.field, sum(value for value, _ in bulks) / len(bulks), bulks[0][1], row.name)
             if abs(bulks[0][0] - bulks[-1][0]) > SAME * 100.0:
-                self._stage.note(row.field, self._stage.fields[row.field], "mean of both gears")
+                self._stage.note(row.field, self._stage.fields[row.field], "the mean of both gears is used")
         else:
             self._stage.take(row, self._stage.stage)
         for name in table.OIL_SUPPLY:
@@ -92,7 +92,7 @@ class Lubrication:
                 self._stage.put("temperatures.oil_supply", supply, self._stage.stage, name)
                 return
             if text:
-                message = f"lubrication by {text[:40]} is not modelled; the value is not used"
+                message = f"the lubrication method {text[:40]} is not modelled; the value is not used"
                 self._reading.find("oil_supply", self._stage.stage, name, message)
         self._supply_by_factor()
 
@@ -104,7 +104,10 @@ class Lubrication:
         if (supply := table.SUPPLY_FACTORS.get(factor)) is not None:
             self._stage.put("temperatures.oil_supply", supply, self._stage.stage, table.SUPPLY_FACTOR)
         else:
-            message = f"no oil supply of the model has the lubrication factor {factor:.4g}; the factor is not used"
+            message = (
+                f"the lubrication factor {factor:.4g} does not belong to any oil supply of the model; the factor is "
+                "not used"
+            )
             self._reading.find("oil_supply", self._stage.stage, table.SUPPLY_FACTOR, message)
 
     def _friction(self) -> None:

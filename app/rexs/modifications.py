@@ -36,7 +36,7 @@ class Modifications:
         side = self._working_side(place)
         if side is None:
             side = "right" if sides.get("right") else "left"
-            self._stage.note("modifications", side, "which flank carries the load is not known")
+            self._stage.note("modifications", side, "it is not known which flank carries the load")
         modifications = sides.get(side, [])
         for item in modifications:
             if item.type in table.OTHER_MODIFICATIONS:
@@ -74,7 +74,7 @@ class Modifications:
             if not amounts:
                 continue
             if abs(amounts[0] - amounts[-1]) > 0.01:
-                message = "the amounts at both ends differ; their mean is used"
+                message = "the amounts at the two ends differ; the mean of both amounts is used"
                 self._reading.find("ends_differ", item, kind + ends[1], message)
             means.append(sum(amounts) / len(amounts))
             origin = origin or item
@@ -103,8 +103,8 @@ class Modifications:
             self._stage.put(f"{path}_length_mm", length, component, f"{kind}_datum_length")
         if len(reliefs) > 1:
             reason = (
-                "both gears have a relief at this place; the sum of the amounts is used, with length and shape of the "
-                "larger relief"
+                "both gears have a relief at this place; the sum of both amounts is used, with the length and the "
+                "shape of the larger relief"
             )
             self._stage.note(f"{path}_um", largest, reason)
         shape = self._reading.text(component, "shape_of_relief")
@@ -160,14 +160,14 @@ class Modifications:
             sense = (1.0, -1.0)[place] if item.type == "profile_slope" else self._end_sense(place)
             if sense is None:
                 message = (
-                    "the modification is left out, because its sign needs the direction of rotation and the driving "
-                    "gear"
+                    "the modification is left out, because its sign depends on the direction of rotation and on the "
+                    "driving gear, and these are not known"
                 )
                 self._reading.find("modification", item, "helix_slope", message)
                 continue
             sums[item.type] += sense * amount
             origins[item.type] = item
-        where = {"profile_slope": "tip", "helix_slope": "face where u is largest (the non-datum face)"}
+        where = {"profile_slope": "tip", "helix_slope": "the end of the face where u is largest (the non-datum face)"}
         for kind, total in sums.items():
             if kind in origins:
                 path = f"modifications.{kind}_um"
@@ -210,7 +210,12 @@ class Modifications:
             return
         origin, (datum, other) = origins[0], depths.values()
         if abs(datum - other) > 0.01:
-            self._reading.find("ends_differ", origin, None, "end reliefs differ; their mean is used at both ends")
+            self._reading.find(
+                "ends_differ",
+                origin,
+                None,
+                "the reliefs at the two ends differ; the mean of both reliefs is used at both ends",
+            )
         self._stage.put("modifications.end_relief_um", (datum + other) / 2.0, origin, "end_relief_depth_datum_face")
         if lengths:
             path = "modifications.end_relief_length_mm"

@@ -68,8 +68,8 @@ class Train:
         self._shafts = reading.model.by_type["shaft"]
         if len(self._shafts) > MOST_SHAFTS:
             message = (
-                f"speeds and torques are not computed, because the unit has {len(self._shafts)} shafts; the largest "
-                f"number is {MOST_SHAFTS}"
+                f"speeds and torques are not computed, because the unit has {len(self._shafts)} shafts; at most "
+                f"{MOST_SHAFTS} shafts are allowed"
             )
             reading.find("too_many_shafts", None, None, message)
             self._shafts, self._pairs = [], []
@@ -127,8 +127,8 @@ class Train:
                 continue  # the model states this speed, but the load case states other speeds
             elif abs(speeds[group] - speed) > BALANCE * max(abs(speed), abs(speeds[group])):
                 message = (
-                    f"the stated speed is {speed:.6g} 1/min, but the numbers of teeth give {speeds[group]:.6g} 1/min; "
-                    "the stated speed is not used"
+                    f"the stated speed is {speed:.6g} 1/min, but according to the numbers of teeth the speed is "
+                    f"{speeds[group]:.6g} 1/min; the stated speed is not used"
                 )
                 reading.find("speed_conflict", shaft, "rotational_speed", message)
         return speeds
@@ -219,8 +219,8 @@ class Train:
             and abs(abs(of_power) - abs(torque)) > BALANCE * max(abs(of_power), abs(torque))
         ):
             message = (
-                f"the stated torque is {abs(torque):.6g} N m, but power and speed give {abs(of_power):.6g} N m; the "
-                "stated torque is used"
+                f"the stated torque is {abs(torque):.6g} N m, but according to power and speed the torque is "
+                f"{abs(of_power):.6g} N m; the stated torque is used"
             )
             reading.find("power_conflict", load, "power", message)
         return torque * reading.sense(shaft)  # the file states the torque of a load about the u axis of the shaft

@@ -345,9 +345,9 @@ class Draft:
                     continue
                 component, attribute = self.origins.get(ours, (None, None))
                 self.reading.find(
-                    "out_of_range", component, attribute, f"{ours}: {fault.message}; the value is not used"
+                    "out_of_range", component, attribute, f"{ours}: {fault.message}; the value in the file is not used"
                 )
-                self.lacks(ours, component, attribute, f"the value in the file is not possible: {fault.message}")
+                self.lacks(ours, component, attribute, f"the value in the file is not permissible: {fault.message}")
                 del own[ours]
             if len(own) == accepted:
                 return request

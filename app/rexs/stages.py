@@ -35,14 +35,16 @@ def _pair(reading: Reading, stage: Component) -> Pair | None:
     relation = next(iter(model.relations_of("stage", "stage", stage.id)), None)
     first, second = (model.part(relation, role) if relation else None for role in ("gear_1", "gear_2"))
     if first is None or second is None:
-        reading.find("relation_missing", stage, None, "the stage has no relation to two gears; it is left out")
+        reading.find("relation_missing", stage, None, "the stage has no relation to two gears; the stage is left out")
         return None
     teeth = _teeth(reading, stage, first), _teeth(reading, stage, second)
     if teeth[0] is None or teeth[1] is None:
         return None
     shafts = _shaft_of(reading, first), _shaft_of(reading, second)
     if shafts[0] is None or shafts[1] is None or shafts[0].id == shafts[1].id:
-        reading.find("relation_missing", stage, None, "the gears do not sit on two shafts; the stage is left out")
+        reading.find(
+            "relation_missing", stage, None, "the two gears do not sit on two different shafts; the stage is left out"
+        )
         return None
     return Pair(stage, (first, second), (shafts[0], shafts[1]), (teeth[0], teeth[1]))
 
@@ -59,7 +61,7 @@ def _teeth(reading: Reading, stage: Component, gear: Component) -> int | None:
         reading.find("ring_gear", gear, "number_of_teeth", message)
         return None
     if number is None or number != int(number) or not 1 <= number <= 10_000:
-        reading.find("teeth", gear, "number_of_teeth", "the number of teeth is not possible; the stage is left out")
+        reading.find("teeth", gear, "number_of_teeth", "the number of teeth is not permissible; the stage is left out")
         return None
     return int(number)
 
@@ -135,7 +137,10 @@ class StageDraft(Draft):
         if by_power is None and len(stated) == 1:
             return stated[0]
         if by_power is not None and stated and by_power not in stated:
-            message = "according to torque and speed the other gear drives; the other gear is used as the driver"
+            message = (
+                "the file states that this gear drives, but according to torque and speed the other gear drives; the "
+                "other gear is used as the driver"
+            )
             self.reading.find("driver", pair.gears[stated[0]], None, message)
         return by_power
 
@@ -267,14 +272,21 @@ class StageDraft(Draft):
         cosine = cos(radians(self.fields.get(table.HELIX_ANGLE.field, 0.0)))
         modules = self.values_of(self.gears, table.TRANSVERSE_MODULE)
         if modules:
-            self.note(table.MODULE.field, modules[0][0] * cosine, "the transverse module times the cosine of the helix")
+            self.note(
+                table.MODULE.field,
+                modules[0][0] * cosine,
+                "computed as the transverse module times the cosine of the helix angle",
+            )
         return [(value * cosine, gear) for value, gear in modules]
 
     def _helix(self) -> None:
         row, gear = table.HELIX_ANGLE, self.gears[0]
         pinion, wheel = (self._helix_angle(gear) for gear in self.gears)
         if pinion is not None and wheel is not None and abs(pinion + wheel) > SAME * 90.0:
-            message = "the helix angles of an external pair must be opposite; the helix angle of the pinion is used"
+            message = (
+                "the helix angles of an external pair must be equal and of opposite sign; the helix angle of the "
+                "pinion is used"
+            )
             self.reading.find("helix_angles", self.gears[1], row.name, message)
         if pinion is None:
             if wheel is None:
@@ -322,11 +334,11 @@ class StageDraft(Draft):
                 common = min(common, overlap)
             else:
                 self.reading.find(
-                    "faces_apart", self.stage, None, "according to their positions the faces do not overlap"
+                    "faces_apart", self.stage, None, "according to the positions of the gears, the faces do not overlap"
                 )
         self.put(row.field, common, gear, row.name)
         if any(abs(width - common) > SAME * common for width in widths):
-            self.note(row.field, common, "the face that both gears have in common")
+            self.note(row.field, common, "the part of the face that both gears have in common")
 
     def _pressure_angle(self) -> None:
         row = table.PRESSURE_ANGLE
@@ -380,7 +392,7 @@ class StageDraft(Draft):
         if not values:
             return None
         if any(abs(value - values[0][0]) > SAME for value, _ in values):
-            message = "left and right flank differ, which is not modelled; the value of the left flank is used"
+            message = "the left and the right flank differ, which is not modelled; the value of the left flank is used"
             self.reading.find("flanks_differ", values[1][1], row.attributes[-1], message)
         self.put(path, *values[0], row.attributes[-1])
         return values[0][0]
@@ -458,7 +470,11 @@ class StageDraft(Draft):
         smallest, tool = min(radii, key=lambda radius_and_tool: radius_and_tool[0])
         self.put(path, smallest, tool, table.TOOL_TIP_RADIUS.attributes[-1])
         if abs(radii[0][0] - radii[-1][0]) > SAME:
-            self.note(path, smallest, "the tools differ; the smaller radius is used for both gears")
+            self.note(
+                path,
+                smallest,
+                "the tools of the two gears have different tip radii; the smaller radius is used for both gears",
+            )
 
     def _backlash(self) -> None:
         """Fill in the part of the normal backlash that results from the thinning of the teeth.
@@ -480,7 +496,7 @@ class StageDraft(Draft):
         if own is None or stated < own - SAME:
             message = (
                 f"the stated backlash of {stated:.4g} mm is smaller than the backlash that results from the centre "
-                "distance"
+                "distance; no further backlash is added"
             )
             self.reading.find("backlash", self.stage, name, message)
             own = stated
@@ -566,8 +582,8 @@ class StageDraft(Draft):
         apart = first.apart(second)
         if abs(apart - distance) > OFF_CENTRE * abs(distance):
             message = (
-                f"according to their positions the shafts are {apart:.6g} mm apart; the centre distance of the stage "
-                "is used"
+                f"the positions of the shafts give a distance of {apart:.6g} mm, which differs from the centre "
+                "distance of the stage; the centre distance of the stage is used"
             )
             self.reading.find("centre_distance", self.stage, "center_distance", message)
 
@@ -586,11 +602,15 @@ class StageDraft(Draft):
             elif values:
                 value, component = values[0]
                 self.put(row.field, abs(value), component, row.name)
-                self.note(row.field, abs(value), f"the {what} that the file states of the gear")
+                self.note(row.field, abs(value), f"the {what} that the file states for the gear")
             else:
-                self.lacks(row.field, self.shafts[0], None, f"the {what} of this stage does not follow from the file")
+                self.lacks(row.field, self.shafts[0], None, f"the file does not determine the {what} of this stage")
         if self.driver is None:
-            self.note("gears.pinion", self.gears[0].id, "which gear drives is not known; the smaller gear is used")
+            self.note(
+                "gears.pinion",
+                self.gears[0].id,
+                "it is not known which gear drives; the smaller gear is taken as the driver",
+            )
 
 
 class Involute:

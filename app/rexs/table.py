@@ -309,7 +309,7 @@ IGNORED = (
     (
         "(concept|rolling|slide|hydrodynamic).*",
         "",
-        "a radial bearing is used by stiffness and offset, a plain one by bore, width, clearance and feed temperature",
+        "of radial bearings only stiffness and offset are used; of plain bearings only dimensions and feed temperature",
     ),
     ("material", "", "of materials only elasticity, density and heat are used"),
     ("rack_shaped_tool", "", "of tools only addendum and tip radius are used"),

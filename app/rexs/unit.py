@@ -44,7 +44,7 @@ def gear_unit(model: Model) -> dict[str, Any]:
     if len(cases) < len(model.load_cases):
         reading.find("too_many_cases", None, None, f"only the first {len(cases)} load cases are read")
     if len(cases) > MOST_SPECTRUM_CASES:
-        message = f"/v1/spectrum takes at most {MOST_SPECTRUM_CASES} load cases; the file has more"
+        message = f"the file has more load cases than /v1/spectrum accepts; the largest number is {MOST_SPECTRUM_CASES}"
         reading.find("too_many_cases", None, None, message)
     train = Train(reading, all_pairs)
     base, flows = train.flow(), [train.flow(case) for case in cases]
@@ -77,7 +77,8 @@ def _stages(reading: Reading, all_pairs: list[Pair], base: Flow, flows: list[Flo
         row["ignored"] = _rows(islice(unused, MOST_IGNORED))
         if next(unused, None) is not None:
             message = (
-                f"more than {MOST_IGNORED} attributes of the stage {row['id']} are not used; only the first are listed"
+                f"more than {MOST_IGNORED} attributes of the stage {row['id']} are not used; the list contains only "
+                "the first of these attributes"
             )
             reading.find("too_many_ignored", None, None, message)
     return rows
@@ -95,7 +96,9 @@ def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], S
         for path in (TORQUE, SPEED, table.OIL_TEMPERATURE.field):
             if path in stage.fields:
                 stage.note(
-                    path, stage.fields[path], f"taken from the load case {case.name}, because the model states no value"
+                    path,
+                    stage.fields[path],
+                    f"the value is taken from the load case {case.name}, because the model states no value",
                 )
     # The fields of the sections in `MESH` come first, then the fields of oil and temperatures.
     paths = sorted({**stage.fields, **stage.missing}, key=lambda path: path.partition(".")[0] not in MESH)
@@ -214,9 +217,15 @@ def _shares(readings: list[Reading]) -> tuple[list[float], str | None]:
         values = [reading.number(unit, name, size) for reading in readings]
         valid = [value for value in values if value is not None and value >= 0.0]
         if len(valid) == len(values) and sum(valid) > 0.0:
-            reason = f"shares from the attribute {name}, which is not part of the standard" if name in own else None
+            reason = (
+                f"the shares are taken from the attribute {name}, which is not part of the standard"
+                if name in own
+                else None
+            )
             return [value / sum(valid) for value in valid], reason
-    return [1.0 / len(readings)] * len(readings), "the file states no shares of the load cases; equal shares are used"
+    return [1.0 / len(readings)] * len(
+        readings
+    ), "the file does not state the shares of the load cases; equal shares are used"
 
 
 def _check_relations(reading: Reading) -> None:
@@ -227,7 +236,8 @@ def _check_relations(reading: Reading) -> None:
         absent = [id_ for _, id_ in relation.parts if id_ not in model.components]
         if absent:
             message = (
-                f"a relation of type {relation.type[:40]} names component {absent[0]}, which the file does not have"
+                f"a relation of type {relation.type[:40]} names component {absent[0]}, but the file has no such "
+                "component"
             )
             reading.find("relation", None, None, message)
         whole, part = relation.part("assembly"), relation.part("part")
@@ -241,5 +251,5 @@ def _check_relations(reading: Reading) -> None:
             path[here] = None
             here = parents[here]
         if here in path:
-            reading.find("cycle", model.components.get(here), None, "the assembly contains itself")
+            reading.find("cycle", model.components.get(here), None, "an assembly in the file contains itself")
         done.update(path)

@@ -48,7 +48,7 @@ class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
             "rack_tip_radius",
             text="tip radius coefficient of the rack, of mesh and pumped spaces alike",
             default_text=f"{RACK_A} for the mesh, {GROUND_FILLET} for the pumped spaces",
-            assumed=f"rack A of ISO 53, {RACK_A}, for the mesh; a ground fillet, {GROUND_FILLET}, for the spaces",
+            assumed=f"for the mesh, rack A of ISO 53 ({RACK_A}); for the spaces, a ground fillet ({GROUND_FILLET})",
         ),
     ] = None
 
@@ -110,8 +110,8 @@ class CylindricalSection(Section, of=si.ShaftSection):
             "outer_diameter",
             text="under the teeth the diameter that carries torsion",
             default_text="under the teeth d - m_n h_fP*; required elsewhere",
-            assumed="under the teeth d - m_n h_fP*, the root circle and a third of the tooth; the reference diameter "
-            "twists too little",
+            assumed="under the teeth, d - m_n h_fP* is used, which is about the root diameter plus a third of the "
+            "tooth depth; with the reference diameter, the computed torsion would be too small",
         ),
     ] = None
 
@@ -142,8 +142,9 @@ class ShaftBearing(Section):
             ge=1e-5,
             le=100,
             default_text="the gears' oil at the film temperature",
-            assumed=f"the gears' oil at the film temperature: that of the heat balance if there is one, else "
-            f"{si.FILM_ABOVE_OIL:.0f} K above the oil's unless given",
+            assumed="the viscosity of the gears' oil at the film temperature. If no film temperature is given, the "
+            f"film temperature is taken from the heat balance; without a heat balance it is {si.FILM_ABOVE_OIL:.0f} K "
+            "above the oil temperature",
         ),
     ] = None
     film_temperature_c: Annotated[
@@ -178,11 +179,11 @@ class ShaftBearing(Section):
             return self.si(si.RigidBearing)
         if self.type == "linear":
             if self.stiffness_n_per_um is None:
-                raise InvalidInput("bearing_data", "A linear bearing needs its stiffness", "stiffness")
+                raise InvalidInput("bearing_data", "A linear bearing needs a stiffness", "stiffness")
             return self.si(si.LinearBearing)
         if self.diameter_mm is None or self.width_mm is None:
             missing = "diameter" if self.diameter_mm is None else "width"
-            raise InvalidInput("bearing_data", "A journal bearing needs diameter and width", missing)
+            raise InvalidInput("bearing_data", "A journal bearing needs a diameter and a width", missing)
         if self.viscosity_pa_s is not None:
             return self.si(si.JournalBearing)
         if scuffing.oil is None:
@@ -238,7 +239,9 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
             end = position + section.length
             beside = position > face_start + gears.face_width - si.COINCIDENT or end < face_start + si.COINCIDENT
             if left_out and beside:
-                message = f"section {k} is not under the teeth; give its outer diameter"
+                message = (
+                    f"the outer diameter may be left out only under the teeth; give the outer diameter of section {k}"
+                )
                 raise InvalidInput("section_diameter", message, f"{name}.sections.{k}.outer_diameter")
             yield section
             position = end
@@ -347,8 +350,8 @@ class DriveTrainRequest(MeshInOil):
         if "bulk_includes_pumping" in thermal.model_fields_set and not thermal.bulk_includes_pumping:
             raise PydanticCustomError(
                 "exclusive",
-                "thermal.bulk_includes_pumping must be true with the heat balance, which already includes the heat "
-                "of pumping",
+                "set thermal.bulk_includes_pumping to true, because the bulk temperature of the heat balance already "
+                "includes the heat of pumping",
             )
         heat = thermal.model_copy(update={"bulk_includes_pumping": True})
         return self.model_copy(update={"thermal": heat})

@@ -59,8 +59,8 @@ class SheetOil(Section):
             OilSheet,
             "kinematic_viscosity_100",
             default_text="by the viscosity index, else typical of the kind of oil",
-            assumed="typical of the kind of oil: viscosity index 94 to 102 of mineral oils, 150 of PAO and ester, 210 "
-            "of polyglycols",
+            assumed="a typical viscosity index of the kind of oil is used: 94 to 102 for mineral oils, 150 for PAO and "
+            "ester, 210 for polyglycols",
         ),
     ] = None
     viscosity_index: Annotated[
@@ -93,7 +93,10 @@ class SheetOil(Section):
         """
         thin = self.kinematic_viscosity_100_mm2_per_s
         if self.iso_vg is not None and thin is not None:
-            raise PydanticCustomError("exclusive", "iso_vg and kinematic viscosities are both given; keep one")
+            raise PydanticCustomError(
+                "exclusive",
+                "iso_vg and kinematic viscosities are both given; keep either iso_vg or the kinematic viscosities",
+            )
         if self.kinematic_viscosity_40_mm2_per_s is None and thin is not None:
             raise PydanticCustomError(
                 "two_viscosities", "give both kinematic_viscosity_40_mm2_per_s and kinematic_viscosity_100_mm2_per_s"
@@ -101,7 +104,7 @@ class SheetOil(Section):
         if self.viscosity_index is not None and not self.by_sheet:
             raise PydanticCustomError(
                 "two_viscosities",
-                "viscosity_index needs a viscosity; give kinematic_viscosity_40_mm2_per_s or iso_vg as well",
+                "viscosity_index is given without a viscosity; give kinematic_viscosity_40_mm2_per_s or iso_vg as well",
             )
         return self
 
@@ -205,7 +208,9 @@ class Oil(SheetOil, of=Lubricant):
         """Refuse a density if a grade or data sheet is given. Refuse a null property if a viscosity is given."""
         if self.by_sheet and self.density_kg_per_m3 is not None:
             raise PydanticCustomError(
-                "exclusive", "density_kg_per_m3 and a grade or data sheet are both given; keep one"
+                "exclusive",
+                "density_kg_per_m3 is given, but the grade or data sheet of the oil already determines the "
+                "density; give only one of the two",
             )
         missing = [name for name in _WITH_VISCOSITY if getattr(self, name) is None]
         if self.viscosity_pa_s is not None and missing:

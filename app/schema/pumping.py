@@ -10,8 +10,8 @@ from solvers.pumping import lead_correction, pulsation, results
 from solvers.pumping.space import stroke
 
 AXIAL_SPEED_ONLY = (
-    "the stagnation temperature counts the axial speed only; air drawn in from rest meets a tooth at the pitch-line "
-    "speed U, whose recovery is worth up to U²/(2 c_p) more"
+    "the stagnation temperature includes only the axial speed. Air that is drawn in from rest meets a tooth at the "
+    "pitch-line speed U, which adds up to U²/(2 c_p) to the recovery temperature"
 )
 
 

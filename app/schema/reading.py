@@ -86,7 +86,7 @@ def _message(location: list[str | int], sections: Models, item: dict[str, Any]) 
     if kind in _SECTION_TYPES:
         return "leave the section out instead of null" if value is None else "give a section {...} of fields here"
     if kind in _RANGE_TYPES:
-        return f"{name} is {_figure(value)}; permissible {_allowed(sections, name)}{_advice(sections, name, value)}"
+        return f"{name} is {_figure(value)}; permissible: {_allowed(sections, name)}{_advice(sections, name, value)}"
     context = {key: str(said).replace("'", "") for key, said in item.get("ctx", {}).items()}
     choices = context.get("expected", "").replace(" or ", ", ")
     plain = {
@@ -143,7 +143,7 @@ def _allowed(sections: Models, name: str) -> str:
     """Return the permissible range of a field, with the unit."""
     given = _declared(sections, name)
     if given is None:
-        return "is another range"
+        return "another range"
     return f"{allowed(given)} {UNITS[given.unit].symbol}" if given.unit else allowed(given)
 
 

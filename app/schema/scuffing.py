@@ -312,12 +312,16 @@ class ContactTemperatures(Section, of=si.Temperatures):
                 if self.bulk_method == "estimated"
                 else "a bulk temperature by heat balance"
             )
-            raise PydanticCustomError("exclusive", "bulk_c and {method} are both given; keep one", {"method": method})
+            raise PydanticCustomError(
+                "exclusive",
+                "bulk_c and {method} are both given; leave bulk_c out, or set bulk_method to given",
+                {"method": method},
+            )
         if self.bulk_method == "heat_balance" and self.oil_supply != "spray":
             raise PydanticCustomError(
                 "exclusive",
-                "the heat balance holds only for gears under jets (oil_supply spray); for gears that dip into oil, set "
-                "bulk_method to estimated, or give a measured bulk_c",
+                "the heat balance holds only for gears under jets (oil_supply spray). For gears that dip into oil, "
+                "set bulk_method to estimated, or give a measured bulk_c",
             )
         return self
 
@@ -377,23 +381,26 @@ PRACTICAL_FRICTION = Input.of(
     default_text="by the friction law, from the oil",
 )
 LAW = (
-    "for scuffing the mean coefficient of ISO/TR 13989-1, with the computed K_Hβ; K_Hα is taken as 1; for the losses "
-    "Schlenk's, without load factors"
+    "for scuffing, the mean coefficient of ISO/TR 13989-1 is used, with the computed K_Hβ and with K_Hα = 1; for the "
+    "losses, Schlenk's coefficient is used, without load factors"
 )
-NOT_USED = "not used: `model.friction` asks for the coefficient of ISO/TR 13989-1"
+NOT_USED = "not used, because `model.friction` selects the coefficient of ISO/TR 13989-1"
 ESTER_FACTOR = (
-    "no lubricant factor is known for an ester: for scuffing that of a mineral oil is taken, for the losses, if no "
-    "coefficient of friction is given, that of a polyalphaolefin"
+    "the lubricant factor of an ester is not known. For scuffing, the factor of a mineral oil is used; for the "
+    "losses, the factor of a polyalphaolefin is used if no coefficient of friction is given"
 )
-ESTER_FILM = f"{ESTER_FACTOR}; the film against micropitting takes the pressure-viscosity coefficient of a mineral oil"
+ESTER_FILM = (
+    f"{ESTER_FACTOR}. For the film against micropitting, the pressure-viscosity coefficient of a mineral oil is used"
+)
 NOT_VALIDATED, KNOWN = "not_validated", f"known to about ±{KNOWN_WITHIN:g} K"
 GIVEN_BULK = (
-    "a given bulk temperature does not follow the oil: with a hotter oil alone the stated safety rises, because it "
-    "counts the temperatures above the oil's"
+    "a given bulk temperature does not change with the oil temperature. If only the oil becomes hotter, the stated "
+    "safety rises, because the safety compares temperature differences from the oil temperature"
 )
 SMOOTH_FILM = (
-    "flanks that touch nowhere: the friction of a full film falls as a hotter oil thins it, so the safety by thermal "
-    "EHL may rise by percents with the oil temperature, while the film thins and the safety by Blok falls"
+    "the flanks do not touch. A hotter oil makes the full film thinner and reduces its friction. The safety by "
+    "thermal EHL may therefore rise by some percent with the oil temperature, although the film becomes thinner and "
+    "the safety by Blok falls"
 )
 
 

@@ -29,14 +29,18 @@ def scalar_at(model: type[Documented], path: str, place: str, unknown: str) -> L
     if leaf is None:
         paths = [other.path for other in leaves(model)]
         if any(name.startswith(f"{path}.") for name in paths):
-            raise Unprocessable("not_scalar", f"{path} is a section, not a single value; name one of its fields", place)
+            raise Unprocessable(
+                "not_scalar",
+                f"{path} is a section and not a single value; name one of the fields in the section",
+                place,
+            )
         raise Unprocessable(unknown, f"there is no {path}{did_you_mean(path, paths)}", place)
     if leaf.kind == "other":
         raise Unprocessable("not_scalar", f"{path} is not a single value", place)
     if not leaf.is_scalar:
-        message = f"{path} is a list, not a single value"
+        message = f"{path} is a list and not a single value"
         if leaf.dimensions == 1:
-            message += f"; name one of its values, such as {path}.0"
+            message += f"; name one of the values in the list, such as {path}.0"
         raise Unprocessable("not_scalar", message, place)
     return replace(leaf, path=path)
 
@@ -80,7 +84,7 @@ def fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
         wrong, code, message = True, "not_integer", f"{value:g} is not a whole number"
     else:
         wrong = not all(getattr(operator, name)(value, bound) for name, bound in leaf.declared.bounds.items())
-        message = f"{value:.12g} is out of range; permissible {allowed(leaf.declared)}"
+        message = f"{value:.12g} is out of range; permissible: {allowed(leaf.declared)}"
     return (code, message) if wrong else None
 
 

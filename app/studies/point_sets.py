@@ -122,7 +122,9 @@ def _length(axis: Axis, place: str) -> int:
         return len(axis.values)
     if axis.values is None and axis.count is not None and None not in spread:
         return axis.count
-    raise Unprocessable("values_or_range", "give either values, or start, stop and count", place)
+    raise Unprocessable(
+        "values_or_range", "give either the field 'values', or the fields 'start', 'stop' and 'count'", place
+    )
 
 
 def _check_axis(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
@@ -170,16 +172,22 @@ def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: st
         leaf = base.leaf(scatter.path, f"{here}.path")
         message = not_a_number(leaf)
         if message is not None:
-            raise Unprocessable("not_continuous", f"{message}; vary it along an axis, or list cases", f"{here}.path")
+            raise Unprocessable(
+                "not_continuous", f"{message}; vary this field along an axis, or list the cases", f"{here}.path"
+            )
         if leaf.kind == "integer":
             raise Unprocessable(
-                "not_integer", f"{scatter.path} takes only whole numbers; vary it along an axis, or list cases", here
+                "not_integer",
+                f"{scatter.path} accepts only whole numbers; vary this field along an axis, or list the cases",
+                here,
             )
         for name, value in anchors(scatter).items():
             check_value(leaf, value, f"{here}.{name}")
         for (low, least), (high, greatest) in pairwise(anchors(scatter).items()):
             if least > greatest:
-                raise Unprocessable("out_of_range", f"{scatter.path}: {low} is above {high}", here)
+                raise Unprocessable(
+                    "out_of_range", f"{scatter.path}: the value of '{low}' is above the value of '{high}'", here
+                )
         _check_digits(scatter, leaf, here)
         leaves.append(leaf)
     return tuple(leaves)
@@ -195,7 +203,8 @@ def _check_digits(scatter: Range | Scatter, leaf: Leaf, place: str) -> None:
     if isinstance(scatter, Normal) and 1.0 - cut(scatter, leaf).cut_off < LEAST_SHARE:
         message = (
             f"{scatter.path}: with a deviation of {scatter.deviation:.6g} almost no values lie inside the permissible "
-            f"range of the field ({allowed(leaf.declared)}); give a smaller deviation, or a uniform distribution"
+            f"range of the field ({allowed(leaf.declared)}); give a smaller deviation, or choose a uniform "
+            "distribution"
         )
         raise Unprocessable("out_of_range", message, f"{place}.deviation")
 

@@ -82,7 +82,7 @@ class BaseRequest(NamedTuple):
         try:
             set_value(self.calculation.request, copy.deepcopy(self.body), path, None)
         except IndexError:
-            message = f"the request has no {path}, because the list in the request is shorter"
+            message = f"{path} does not exist, because the list in the request is too short"
             raise Unprocessable("unknown_path", message, place) from None
         return leaf
 
@@ -91,7 +91,9 @@ class BaseRequest(NamedTuple):
         leaf = scalar_at(self.calculation.response, path, place, "unknown_output")
         if leaf.detail != "summary":
             raise Unprocessable(
-                "not_scalar", f"{path} belongs to a curve or field; a study gives single values only", place
+                "not_scalar",
+                f"{path} is part of a curve or of a map, but a study gives single values only; choose another output",
+                place,
             )
         return leaf
 

@@ -18,7 +18,7 @@ _PATH = re.compile(r"[A-Za-z0-9_]{1,60}(\.[A-Za-z0-9_]{1,60}){0,9}")
 
 def _field_path(value: Any) -> str:
     if not isinstance(value, str) or not _PATH.fullmatch(value):
-        raise PydanticCustomError("path_type", "Give the path of a field: names joined by dots")
+        raise PydanticCustomError("path_type", "Give the path of a field, which consists of names joined by dots")
     return value
 
 
@@ -26,7 +26,9 @@ def _field_paths(value: Any) -> str | list[str]:
     if not isinstance(value, list):
         return _field_path(value)
     if not 0 < len(value) <= MOST_FIELDS_TOGETHER:
-        raise PydanticCustomError("path_type", "Give one path, or a list of up to fifty that move together")
+        raise PydanticCustomError(
+            "path_type", "Give one path, or a list of up to fifty paths whose fields change together"
+        )
     return [_field_path(each) for each in value]
 
 

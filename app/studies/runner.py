@@ -149,7 +149,7 @@ async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrid
     A point is repeated once if its process is lost. If the chunk has only one point and this point exceeded its
     deadline, the point is not solved again.
     """
-    late = question.failed("deadline_exceeded", "the point took longer than the time limit of one calculation")
+    late = question.failed("deadline_exceeded", "this point took longer than the time limit of one calculation")
     if len(overrides) == 1 and isinstance(error, DeadlineExceeded):
         return Chunk([late], CHUNK_SECONDS)
     started = time.perf_counter()
@@ -158,7 +158,7 @@ async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrid
         try:
             points += (await twice_if_lost(pool, solve_chunk, question, [point_overrides])).points
         except WorkerLost:
-            points.append(question.failed("worker_lost", "the worker process died each time it solved the point"))
+            points.append(question.failed("worker_lost", "the worker process died every time it calculated this point"))
         except DeadlineExceeded:
             points.append(late)
     return Chunk(points, time.perf_counter() - started)

@@ -11,7 +11,6 @@ def high_pressure(pressure: float | None, field: str = "pinion_torque") -> Itera
     """Warn if the Hertzian pressure [Pa] exceeds the strength of steel."""
     if pressure is not None and pressure > HIGHEST_PRESSURE:
         message = (
-            f"the Hertzian pressure of {pressure / 1e6:.4g} MPa exceeds the strength of steel; was the load entered "
-            "too high?"
+            f"the Hertzian pressure of {pressure / 1e6:.4g} MPa exceeds the strength of steel; is the load correct?"
         )
         yield unusual_value(field, message)

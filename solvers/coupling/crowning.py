@@ -97,8 +97,8 @@ _WINDOW_POINTS = 25  # chosen: points of the grid from which the search for the 
 _REASONS = {
     "contact_overlap": "no crowning ratio up to 1000 brings the contact overlap below 1 at the smallest misalignment",
     "edge_contact": (
-        "every crowning ratio that brings the overlap below 1 at the smallest misalignment lets the contact leave the "
-        "face at the largest misalignment"
+        "no crowning ratio satisfies both conditions: a contact overlap below 1 at the smallest misalignment, and a "
+        "contact within the face at the largest misalignment; choose a smaller range of misalignment"
     ),
     "hertz_pressure": "no crowning ratio up to 1000 brings the Hertzian pressure below 2 GPa",
     "contact_width": "no crowning ratio up to 1000 keeps the contact narrower than a tenth of the flank radius",
@@ -363,7 +363,7 @@ def _sliding_notices(inputs: RecommendationInputs) -> tuple[Notice, ...]:
     if sliding <= SLIDING_VELOCITY_LIMIT:
         return ()
     message = (
-        f"the sliding velocity at the largest misalignment is {sliding:.3g} m/s, above the limit of "
+        f"at the largest misalignment the sliding velocity is {sliding:.3g} m/s, which exceeds the limit of "
         f"{SLIDING_VELOCITY_LIMIT} m/s"
     )
     return (Notice("sliding_velocity", message, "misalignment_range"),)
@@ -374,7 +374,8 @@ def _check(inputs: RecommendationInputs) -> None:
     if not 0.0 < inputs.min_misalignment <= inputs.max_misalignment <= MAX_MISALIGNMENT:
         raise InvalidInput(
             "misalignment_range",
-            "the smallest misalignment must be above 0, and the largest must lie between the smallest and 6 degrees",
+            "the smallest misalignment must be above 0, and the largest misalignment must lie between the smallest "
+            "misalignment and 6 degrees",
             "misalignment_range",
         )
     check_inputs(at_misalignment(inputs, 1.0, inputs.max_misalignment))

@@ -473,7 +473,7 @@ def _check_pitch_errors(inputs: CouplingInputs) -> None:
     if len(errors) != inputs.coupling.teeth:
         raise InvalidInput(
             "pitch_errors_length",
-            f"give one pitch deviation per tooth, which means {inputs.coupling.teeth} values",
+            f"give one pitch deviation for each tooth, {inputs.coupling.teeth} values in total",
             "pitch_errors",
         )
     if not all(isfinite(error) for error in errors):

@@ -54,21 +54,21 @@ def motion_notices(
         yield Notice("sliding_velocity", message, "misalignment")
     if thrust.indeterminate:
         message = (
-            "no tooth slides, so that friction may hold any thrust between the bounds; the middle of the bounds is "
-            "stated"
+            "no tooth slides. Friction can then balance any thrust between the bounds; the thrust is stated as the "
+            "mean of the bounds"
         )
         yield Notice("friction_indeterminate", message, "axial_velocity")
     elif thrust.self_induced is not None and sliding == 0.0:
         message = (
-            "the misalignment makes no tooth slide; the direction of the self-induced thrust is therefore unknown, "
-            "and this thrust is stated as zero"
+            "at this misalignment no tooth slides; the direction of the self-induced thrust is therefore unknown, and "
+            "this thrust is stated as zero"
         )
         yield Notice("friction_indeterminate", message, "misalignment")
     if sliding == operation.axial_velocity == 0.0 < thrust.coaxial_limit:
         bound = equal_loads_friction_moment(thrust.coaxial_limit, geometry.pitch_radius)
         message = (
-            f"no tooth slides, so that friction may hold any moment up to {bound:.4g} N m against a tilt; zero is "
-            "stated"
+            f"no tooth slides. Friction can then resist a tilt with any moment up to {bound:.4g} N m; the moment is "
+            "stated as zero"
         )
         yield Notice("indeterminate_moment", message, "speed" if operation.speed == 0.0 else "misalignment")
 
@@ -80,21 +80,21 @@ def load_notices(
     torque = inputs.operation.torque
     if torque == 0.0:
         message = (
-            "without torque there is no load concentration, load capacity coefficient or thrust limit; friction regime "
-            "and coefficient of friction are those of a vanishing load"
+            "without torque there is no load concentration, load capacity coefficient or thrust limit; the friction "
+            "regime and the coefficient of friction are stated for a very small load"
         )
         yield Notice("no_load", message, "torque", rank="note")
     elif thrust.coaxial_limit == 0.0:
         yield Notice(
             "no_friction",
-            "without friction the limit of the thrust is zero, and the thrust cannot be stated as a share of the limit",
+            "without friction the limit of the thrust is zero; the thrust can therefore not be stated as a share of "
+            "this limit",
             "coefficient",
             rank="note",
         )
     if torque < limits.sleeve_centring_torque:
         message = (
-            f"below a torque of {limits.sleeve_centring_torque:.4g} N m the teeth do not hold a horizontal sleeve "
-            "centred"
+            f"below a torque of {limits.sleeve_centring_torque:.4g} N m the teeth cannot centre a horizontal sleeve"
         )
         yield Notice("sleeve_not_centred", message, "torque")
     if inputs.model.sleeve == "floating" and 0 < load.loaded_teeth < 3:
@@ -109,7 +109,12 @@ def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication:
         yield from oil_temperature(inputs.lubricant.temperature, "lubricant.temperature")
     half_face = inputs.coupling.face_width / 2.0
     if lubrication.hertz_half_width > half_face:
-        yield Notice("wide_contact", "the contact at rest is wider than the tooth face", "face_width", rank="invalid")
+        yield Notice(
+            "wide_contact",
+            "even without travel, the contact is wider than the tooth face",
+            "face_width",
+            rank="invalid",
+        )
     if kinematics.max_contact_travel >= half_face:
         message = (
             f"the contact travels {kinematics.max_contact_travel * 1e3:.3g} mm and leaves the tooth face; there is no "
@@ -118,12 +123,23 @@ def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication:
         yield Notice("edge_contact", message, "face_width", rank="invalid")
     elif kinematics.max_contact_travel + lubrication.hertz_half_width > half_face:
         reach = kinematics.max_contact_travel + lubrication.hertz_half_width
-        message = f"the contact extends to {reach * 1e3:.3g} mm from the middle of the face, beyond the end of the face"
+        message = (
+            f"the contact reaches a distance of {reach * 1e3:.3g} mm from the middle of the face, which is beyond the "
+            "end of the face"
+        )
         yield Notice("edge_contact", message, "face_width")
     if lubrication.inlet_ratio is None:
-        yield Notice("infinite_inlet", "an infinitely long inlet has no inlet ratio", "inlet", rank="note")
+        yield Notice(
+            "infinite_inlet",
+            "the inlet is infinitely long; the inlet ratio is therefore not defined",
+            "inlet",
+            rank="note",
+        )
     if lubrication.regime.area == UNSTABLE_AREA:
-        message = "the friction is unstable in area 3.3, for which the paper states no coefficient of friction"
+        message = (
+            "the friction regime is area 3.3, in which the friction is unstable; for this area the paper states no "
+            "coefficient of friction"
+        )
         yield Notice("unstable_regime", message, "misalignment", rank="invalid")
 
 
@@ -148,8 +164,8 @@ def orbit_notices(
         return
     if displacement_uncertainty is None or harmonic_uncertainty is None:
         message = (
-            "with twice the number of orders the orbit does not settle; the uncertainty of the orbit is therefore not "
-            "known"
+            "the orbit does not converge with twice the number of harmonics; the uncertainty of the orbit is "
+            "therefore not known"
         )
         yield Notice("orbit_resolution", message, "speed")
         return

@@ -195,7 +195,7 @@ def _check_holding(force: FloatArray, limit: float) -> None:
         raise InvalidInput(
             "torque_too_low",
             f"the torque is too low to centre the sleeve: the inertia force is {needed:.4g} N, but the teeth can hold "
-            f"only {limit:.4g} N",
+            f"only {limit:.4g} N; raise the torque",
             "torque",
         )
 

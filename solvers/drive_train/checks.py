@@ -98,7 +98,9 @@ def _check_torque(inputs: DriveTrainInputs, index: int, name: str) -> None:
         hubs = [coupling.position for coupling in inputs.couplings if NAMES[index].startswith(coupling.shaft)]
         if not hubs:
             raise InvalidInput(
-                "torque_position", "a shaft without a coupling needs the position at which the torque enters", field
+                "torque_position",
+                "a shaft without a coupling needs the position at which the torque enters; give this position",
+                field,
             )
         position = hubs[0]
     if not _is_on(shaft, position):

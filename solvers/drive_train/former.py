@@ -70,11 +70,11 @@ class ShaftBearing:
             return RigidBearing(self.position, offset=self.offset)
         if self.type == "linear":
             if self.stiffness is None:
-                raise InvalidInput("bearing_data", "A linear bearing needs its stiffness", "stiffness")
+                raise InvalidInput("bearing_data", "A linear bearing needs a stiffness", "stiffness")
             return LinearBearing(self.position, self.stiffness, offset=self.offset)
         if self.diameter is None or self.width is None:
             missing = "diameter" if self.diameter is None else "width"
-            raise InvalidInput("bearing_data", "A journal bearing needs diameter and width", missing)
+            raise InvalidInput("bearing_data", "A journal bearing needs a diameter and a width", missing)
         viscosity = self.viscosity
         if viscosity is None:
             if oil is None:

@@ -36,8 +36,8 @@ def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResu
                 yield from _film_notices(bearing, state.eccentricity_ratio, state.min_film, field)
         if not all(isinstance(bearing, JournalBearing) for bearing in shaft.bearings):
             message = (
-                "the loss is known only for plain bearings; total loss and efficiency do not include the losses of the "
-                "other bearings"
+                "the loss is known only for plain bearings; the total loss and the efficiency do not include the "
+                "losses of the other bearings"
             )
             yield Notice("bearing_loss_left_out", message, f"{name}.bearings", rank="note")
         thrust = result.thrust
@@ -48,7 +48,10 @@ def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResu
             )
             yield Notice("thrust_reversal", message, f"{name}.ultimate_thrust")
         if thrust.use is not None and thrust.use > 1.0:
-            message = f"the load of the thrust bearing is {thrust.use:.2f} times half its ultimate rating"
+            message = (
+                f"the thrust bearing carries {thrust.use:.2f} times its permissible load, which is half of the "
+                "ultimate rating"
+            )
             yield Notice("thrust_overload", message, f"{name}.ultimate_thrust")
     for k, coupling in enumerate(inputs.couplings):
         shaft = inputs.shafts[0 if coupling.shaft == "pinion" else 1]
@@ -64,8 +67,8 @@ def _film_notices(
     if bearing.width > SHORT_BEARING * bearing.diameter * (1 + ROUNDING):
         ratio = bearing.width / bearing.diameter
         message = (
-            f"the ratio of width to diameter is {ratio:.2f}; above 0.7 the theory of the short bearing makes the film "
-            "too stiff"
+            f"the ratio of width to diameter is {ratio:.2f}; above 0.7 the theory of the short bearing overestimates "
+            "the stiffness of the film"
         )
         yield Notice("short_bearing_range", message, f"{field}.width")
     if film is not None and eccentricity is not None and (film < THIN_FILM or eccentricity > LARGE_ECCENTRICITY):
@@ -81,10 +84,16 @@ def load_notices(inputs: DriveTrainInputs, load: FaceLoad) -> Iterator[Notice]:
         message = f"the load is largest at the end y/b = {load.face_load_at:.0f} of the face"
         yield Notice("edge_load", message, "mesh.distribution.modifications.helix_slope")
     if load.contact_fraction < LIFTED:
-        message = f"only a share of {load.contact_fraction:.2f} of the contact length carries load"
+        message = (
+            f"only a share of {load.contact_fraction:.2f} of the contact length carries load; at the other places the "
+            "flanks lift off"
+        )
         yield Notice("lift_off", message, "mesh.distribution.modifications")
     if inputs.effects.thermal and inputs.heat.wall_response is None:
-        message = "the wall response is assumed to be 0.5; it lies between 0.2 and 1 and can only be measured"
+        message = (
+            "the wall response is not given and is assumed to be 0.5. Real values lie between 0.2 and 1 and are known "
+            "only from measurements"
+        )
         yield Notice("wall_response_assumed", message, "heat.wall_response", rank="note")
 
 
@@ -93,8 +102,8 @@ def loss_notices(inputs: DriveTrainInputs, losses: TrainLosses) -> Iterator[Noti
     power = inputs.mesh.distribution.load.transmitted_power
     if losses.total is not None and 0.0 < power <= losses.total:
         message = (
-            f"the losses of {losses.total / 1e3:.4g} kW exceed the power of {power / 1e3:.4g} kW. There is no "
-            "efficiency, because the driven machine has to supply power as well"
+            f"the losses of {losses.total / 1e3:.4g} kW exceed the power of {power / 1e3:.4g} kW; no efficiency is "
+            "stated, because the driven machine has to supply power as well"
         )
         yield Notice("losses_exceed_power", message, "pinion_torque")
 
@@ -112,8 +121,8 @@ def coupling_notices(
         for name, stuck, share in zip(("unit", "machine"), coupling.stuck, coupling.friction_share, strict=True):
             if stuck and inputs.coupling_friction == "elastic_plastic":
                 message = (
-                    f"the hub on the side of the {name} sticks; "
-                    f"its friction moment is {share:.2f} times the moment of full sliding"
+                    f"the hub on the side of the {name} sticks; the friction moment of this hub is {share:.2f} times "
+                    "the moment at full sliding"
                 )
                 yield Notice("hub_sticks", message, f"{field}.friction", rank="note")
         for notice in {notice.code: notice for notice in notices}.values():

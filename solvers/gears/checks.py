@@ -77,8 +77,8 @@ def centre_distance_in_use(given: float | None, backlash_free: float) -> float:
         return backlash_free
     if given < backlash_free * (1.0 - PRINTED):
         message = (
-            f"the centre distance is below the value without backlash, {backlash_free * 1e3:.4f} mm; increase the "
-            "centre distance or reduce the profile shifts"
+            "at this centre distance the backlash would be negative; the smallest possible centre distance is "
+            f"{backlash_free * 1e3:.4f} mm. Increase the centre distance or reduce the profile shifts"
         )
         raise InvalidInput("flank_interference", message, "centre_distance")
     return max(given, backlash_free)

@@ -156,8 +156,8 @@ class GearPairInputs:
         if not declared["ge"] <= addendum <= declared["le"]:
             message = (
                 f"a tip diameter of {teeth.tip_diameter * 1e3:.6g} mm corresponds to an addendum coefficient of "
-                f"{addendum:.4g}, but permissible are {declared['ge']:g} to {declared['le']:g}; check the tip "
-                "diameter, the module and the profile shift"
+                f"{addendum:.4g}, but the addendum coefficient must be between {declared['ge']:g} and "
+                f"{declared['le']:g}; check the tip diameter, the module and the profile shift"
             )
             raise InvalidInput("tip_diameter", message, f"{name}.tip_diameter")
         return addendum

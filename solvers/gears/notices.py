@@ -90,7 +90,7 @@ def tooth_load(pair: GearPairInputs, torque: float, line_load: float) -> Iterato
     """Warn if the torque of the pinion [N m] is too high, or if the largest line load [N/m] is too low."""
     root = 2 * torque / pitch_diameter(pair) / (pair.face_width * pair.module)
     if root > HIGHEST_ROOT_LOAD:
-        message = f"the tooth force of {root / 1e6:.4g} N per mm of face width and mm of module breaks a steel tooth"
+        message = f"a tooth force of {root / 1e6:.4g} N per mm of face width and per mm of module breaks a steel tooth"
         message += "; was a value entered in the wrong unit (W or N mm)?"
         yield unusual_value("pinion_torque", message)
     if 0.0 < line_load < LEAST_LOAD:

@@ -81,7 +81,7 @@ def with_drain(network: Network, drain: float) -> Network:
     wanted = drain - network.oil.inlet
     if wanted <= 0.0:
         message = (
-            "the measured drain temperature must be above the supply temperature of the oil, "
+            "the measured drain temperature must be above the supply temperature of the oil, which is "
             f"{network.oil.inlet - 273.15:.4g} °C"
         )
         raise InvalidInput("measured_unreachable", message, "cooling.measured.drain")
@@ -218,7 +218,8 @@ def _unreachable(node: str, temperature: float, reached: list[float]) -> Invalid
     low, high = (min(reached) - 273.15, max(reached) - 273.15) if reached else (np.nan, np.nan)
     message = (
         f"no wetting share from 0.02 to 1 brings the {node.replace('_', ' ')} to {temperature - 273.15:.4g} °C; only "
-        f"{low:.4g} to {high:.4g} °C can be reached. Check losses, oil flow and the measured temperature"
+        f"temperatures from {low:.4g} to {high:.4g} °C can be reached. Check the losses, the oil flow and the "
+        "measured temperature"
     )
     if not reached:
         message = "the heat balance has no solution at any wetting share; check the losses and the oil flow"

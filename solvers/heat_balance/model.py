@@ -220,7 +220,10 @@ def _cases(
     try:
         return flank_cases(network, cooling, state.rises), ()
     except NoSolution as failure:
-        message = f"no band of temperatures is stated, because with little oil on the flanks {failure.message}"
+        message = (
+            "no band of temperatures is stated. The calculation with little oil on the flanks has no solution: "
+            f"{failure.message}"
+        )
         return nominal, (Notice("band_unsolved", message, "cooling.wetting_share"),)
 
 

@@ -20,9 +20,9 @@ def heat_notices(network: Network, rises: FloatArray, cooling: Cooling) -> Itera
     """Yield warnings if the speed, the oil, a bearing film or a missing measurement makes the heat balance doubtful."""
     if network.spray.velocity < SLOW:
         message = (
-            f"the pitch line velocity of {network.spray.velocity:.4g} m/s is below {SLOW:g} m/s. Oil that runs down "
-            "and is picked up again then also cools the teeth, but the heat balance considers only the oil of the "
-            "jets; with little oil the flanks are cooler than computed"
+            f"the pitch line velocity of {network.spray.velocity:.4g} m/s is below {SLOW:g} m/s. At such low "
+            "velocities the teeth also pick up oil that has run down, and this oil cools the teeth. The heat balance "
+            "considers only the oil of the jets; with little oil the flanks are therefore cooler than computed"
         )
         yield Notice("low_speed", message, "cooling")
     yield from _oil_notices(network, rises)

@@ -119,7 +119,7 @@ def _check_stability(network: Network, slopes: FloatArray) -> None:
 def _unsolved(residual: FloatArray) -> NoSolution:
     largest = float(np.abs(residual).max())
     message = (
-        f"the heat balance does not converge; {largest:.3g} W remain unbalanced at a node. With less heat or more oil "
-        "there may be an equilibrium"
+        f"the heat balance does not converge; at one node {largest:.3g} W remain unbalanced. Reduce the losses or "
+        "give more oil"
     )
     return NoSolution("heat_balance", message, {"residual_w": largest})

@@ -57,7 +57,7 @@ def _check_incompressible(setup: PumpingSetup) -> None:
     if setup.grooves:
         raise InvalidInput(
             "grooves_incompressible",
-            "the incompressible model does not support grooves; leave them out or choose another flow model",
+            "the incompressible model does not support grooves; leave the grooves out or choose another flow model",
             "grooves",
         )
     if setup.model.slice_count != 1:
@@ -96,17 +96,17 @@ def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoR
     if narrowest < NARROW * widest:
         land = min(part.width * part.cells for part in parts)
         message = (
-            f"the grooves leave a part of the face that is only {1e3 * land:.3g} mm wide; the slices there are so thin "
-            "that too many steps are needed. Extend the grooves over this part, or make it at least "
+            f"the grooves leave a part of the face that is only {1e3 * land:.3g} mm wide; the slices in this part are "
+            "so thin that too many steps are needed. Extend the grooves over this part, or make this part at least "
             f"{1e3 * LEAST_SLICES * NARROW * widest:.3g} mm wide"
         )
         raise InvalidInput("narrow_land", message, "grooves")
     slices = sum(part.cells for part in parts)
-    message = f"{slices} slices need too many steps at this speed; use a higher speed or the pocket chain"
+    message = f"{slices} slices need too many steps at this speed; raise the speed, or choose the pocket chain"
     if isfinite(needed := rpm(pinion_speed) * excess):
         message = (
-            f"{slices} slices need too many steps at this speed; use either at least {_rounded_up(needed):g} rpm of "
-            f"the pinion, or at most {int(slices / sqrt(excess))} slices, or the pocket chain"
+            f"{slices} slices need too many steps at this speed; raise the speed of the pinion to at least "
+            f"{_rounded_up(needed):g} rpm, use at most {int(slices / sqrt(excess))} slices, or choose the pocket chain"
         )
     raise InvalidInput("too_many_steps", message, "pinion_speed")
 

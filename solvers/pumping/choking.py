@@ -124,8 +124,8 @@ def _scan(demands: list[_Demand], top: float) -> list[float]:
 
 def _refuse_sealed(speed: float) -> NoReturn:
     message = (
-        f"the tooth spaces are still choked at {rpm(speed):.3g} rpm of the pinion, because their openings are too "
-        "small; increase the openings"
+        f"even at {rpm(speed):.3g} rpm of the pinion the tooth spaces are choked, because the openings are too small; "
+        "increase the openings"
     )
     raise InvalidInput("always_choked", message, "discharge_coefficient")
 

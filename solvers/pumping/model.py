@@ -252,11 +252,14 @@ def _missing(result: SpacesResult, total: Totals, correction: LeadCorrection | N
         )
     elif result.balance.energy_error is None:
         message = (
-            "the isentropic closure does not conserve energy; its temperature rises are about half of those of the "
-            "energy closure"
+            "the isentropic closure does not conserve energy; its temperature rises are about half as large as with "
+            "the energy closure"
         )
         notices.append(Notice("no_energy_balance", message, "closure"))
     if correction is None:
-        message = "a lead correction needs the temperatures of the pinion's spaces"
+        message = (
+            "the lead correction is computed from the temperatures in the tooth spaces of the pinion; these "
+            "temperatures were not computed"
+        )
         notices.append(Notice("no_lead_correction", message, "spaces", rank="note"))
     return notices

@@ -32,8 +32,8 @@ def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float
     ratio = path.transverse_contact_ratio
     if ratio < 1.0:
         message = (
-            f"the transverse contact ratio of {ratio:.3f} is below 1; between two pairs of teeth there are no flanks "
-            "in contact that seal the spaces"
+            f"the transverse contact ratio of {ratio:.3f} is below 1; at some angles no flanks are in contact, so "
+            "that nothing seals the tooth spaces"
         )
         notices.append(Notice("contact_ratio_below_one", message, "addendum", rank="invalid"))
     for gear, name in ((setup.gears.pinion, "pinion"), (setup.gears.wheel, "wheel")):
@@ -47,8 +47,9 @@ def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float
         notices.append(Notice("single_slice", message, "slices"))
     if setup.model.flow is Flow.GAS_DYNAMICS and active_slices < FEW_SLICES:
         message = (
-            f"at any one time only {active_slices:.0f} slices take part in the stroke. Below {FEW_SLICES} slices the "
-            "dissipation of the numerical grid raises the power at low speed by tens of percent; use more slices"
+            f"only {active_slices:.0f} slices take part in the stroke at the same time. With fewer than {FEW_SLICES} "
+            "slices the dissipation of the numerical grid raises the power at low speed by tens of percent; use more "
+            "slices"
         )
         notices.append(Notice("few_slices", message, "slices"))
     return notices
@@ -83,8 +84,9 @@ def flow_notices(flow: Flow, largest_mach: float, largest_gauge_pressure: float)
         return [Notice("incompressible_mach", message, "flow", rank="invalid")]
     if flow is Flow.POCKET_CHAIN and largest_gauge_pressure < LEAST_GAUGE_PRESSURE:
         message = (
-            f"the pressure differs from the ambient pressure by a share of less than {LEAST_GAUGE_PRESSURE:g}, which "
-            "the pocket chain does not resolve; at low speed the power is proportional to the cube of the speed"
+            "the relative difference between the pressure and the ambient pressure is below "
+            f"{LEAST_GAUGE_PRESSURE:g}; the pocket chain cannot resolve such a small difference. Compute the power at "
+            "a higher speed instead; at low speed the power is proportional to the cube of the speed"
         )
         return [Notice("pressure_not_resolved", message, "pinion_speed")]
     return []
@@ -106,7 +108,7 @@ def net_flow_notices(model: Flow, flows: list[MassFlow]) -> list[Notice]:
         return []
     message = (
         f"a net flow of {1e3 * net:.3g} g/s out of an end is uncertain by {1e3 * flow.net_uncertainty:.2g} g/s, "
-        "because it is a small difference between outflow and inflow"
+        "because this net flow is a small difference between outflow and inflow"
     )
     if model is Flow.GAS_DYNAMICS:
         message += "; use more slices"
@@ -144,10 +146,10 @@ def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]
     pitch_line = pair.pinion_working_radius * pinion_speed
     if tip > TIP_SPEED_SHARE * gas.sound_speed or pitch_line > PITCH_LINE_SPEED:
         message = (
-            f"the tip speed is {tip:.0f} m/s and the pitch-line velocity {pitch_line:.0f} m/s. Published checks end at "
-            f"a tip speed of {TIP_SPEED_SHARE:g} times the speed of sound and at a pitch-line velocity of "
-            f"{PITCH_LINE_SPEED:g} m/s, which is reached at "
-            f"{PITCH_LINE_SPEED / pair.pinion_working_radius * 30 / pi:.0f} rpm of the pinion"
+            f"the tip speed is {tip:.0f} m/s, and the pitch-line velocity is {pitch_line:.0f} m/s. The model has been "
+            f"compared with published results only up to a tip speed of {TIP_SPEED_SHARE:g} times the speed of sound, "
+            f"and up to a pitch-line velocity of {PITCH_LINE_SPEED:g} m/s (at "
+            f"{PITCH_LINE_SPEED / pair.pinion_working_radius * 30 / pi:.0f} rpm of the pinion)"
         )
         return [Notice("high_speed", message, "pinion_speed")]
     return []

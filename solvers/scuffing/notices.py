@@ -44,8 +44,8 @@ def geometry_notices(path: PathOfContact, lengths: ContactLengths) -> list[Notic
         notices.append(
             Notice(
                 "uneven_contact_length",
-                f"the total length of the contact lines falls to {lengths.ratio:.2f} of its maximum, below 0.2; the "
-                "line loads are highest at these positions",
+                f"at some roll positions the total length of the contact lines is only {lengths.ratio:.2f} times its "
+                "maximum (limit: 0.2); the line loads are highest at these positions",
                 "face_width",
             )
         )
@@ -148,8 +148,8 @@ def load_notices(balance: LoadBalance) -> list[Notice]:
         notices.append(
             Notice(
                 "half_space",
-                "at some points the contact is wider than half the tooth thickness behind it; beyond this width the "
-                "compliance of the contact is kept constant",
+                "at some points the contact is wider than half the thickness of the tooth behind the contact; beyond "
+                "this width the compliance of the contact is kept constant",
                 "pinion_torque",
             )
         )

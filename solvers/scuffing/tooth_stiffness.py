@@ -359,7 +359,8 @@ def _pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Mo
     if model.tooth_stiffness == "parabola" and model.contact != "linear":
         raise InvalidInput(
             "contact_law",
-            "the parabolic tooth stiffness is scaled to Ishikawa's maximum with linear contact; choose linear contact",
+            "the parabolic tooth stiffness requires linear contact, because this stiffness is scaled to Ishikawa's "
+            "maximum with linear contact; choose linear contact",
             "contact",
         )
     x = np.linspace(0.0, path.length, TABLE_POINTS)

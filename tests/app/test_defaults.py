@@ -94,7 +94,7 @@ def test_a_coefficient_of_friction_says_by_itself_that_it_is_given() -> None:
     by_oil = solved(SCUFFING, STAGE, {})
     assert by_oil["inputs"]["model"]["friction"] == "iso_tr_13989"
     assert by_oil["inputs"]["friction_coefficient"] is None
-    assert "K_Hα is taken as 1" in reasons(by_oil)["model.friction"]
+    assert "with K_Hα = 1" in reasons(by_oil)["model.friction"]
     given = solved(SCUFFING, STAGE, {"friction_coefficient": 0.06})
     assert given["inputs"]["model"]["friction"] == "given"
     assert given["friction_loss"]["coefficient"] == given["flash"]["friction_coefficient"] == 0.06
@@ -328,7 +328,7 @@ def test_a_section_under_the_teeth_takes_the_diameter_that_carries_torsion() -> 
     twists = [answer["misalignment"]["parts"]["torsion"] for answer in (by_rule, explicit, integral)]
     assert twists[0] == pytest.approx(twists[1], rel=1e-9)
     assert 1.13 < twists[0] / twists[2] < 1.18
-    with pytest.raises(Unprocessable, match="section 1 is not under the teeth; give its outer diameter") as refusal:
+    with pytest.raises(Unprocessable, match="only under the teeth; give the outer diameter of section 1") as refusal:
         solved(TRAIN, TURBO, {"pinion_shaft.sections.1.outer_diameter_mm": GONE})
     assert (refusal.value.code, refusal.value.path) == (
         "section_diameter",

@@ -20,7 +20,7 @@ TORQUE, ERRORS = "operation.torque_n_m", "coupling.pitch_errors_um"
         ("operation.misalignement_deg", 0.05, "unknown field misalignement_deg; did you mean misalignment_deg?"),
         ("coupling.colour", 1, "unknown field colour"),
         ("coupling.<script>", 1, "unknown field"),
-        ("coupling.module_mm", 0.001, "module_mm is 0.001; permissible 0.1 to 100 mm"),
+        ("coupling.module_mm", 0.001, "module_mm is 0.001; permissible: 0.1 to 100 mm"),
         ("operation.speed_rpm", "1910", 'give a number, not text: 1910 instead of "1910"'),
         (TORQUE, "3,5", 'give a number, not text: 3.5 instead of "3,5"'),
         (TORQUE, "a lot", "give a number, not text"),
@@ -48,14 +48,14 @@ HAND = "give the angle without a sign; the hand of the helix matters only in the
 @pytest.mark.parametrize(
     ("path", "value", "message"),
     [
-        ("temperatures", {"scuffing_test": {"fzg_stage": 15}}, f"fzg_stage is 15; permissible 1 to 14; {ABOVE}"),
+        ("temperatures", {"scuffing_test": {"fzg_stage": 15}}, f"fzg_stage is 15; permissible: 1 to 14; {ABOVE}"),
         ("temperatures", {"scuffing_test": {"fzg_stage": ">12"}}, f"give a number, not text; {ABOVE}"),
         ("temperatures", {"scuffing_test": {"fzg_stage": "12+"}}, f"give a number, not text; {ABOVE}"),
-        ("temperatures", {"scuffing_test": {"fzg_stage": 0}}, "fzg_stage is 0; permissible 1 to 14"),
-        ("gears.wheel.teeth", -61, "teeth is -61; permissible 5 to 1000; internal gears are not modelled"),
-        ("gears.wheel.teeth", 4, "teeth is 4; permissible 5 to 1000"),
-        ("gears.helix_angle_deg", -15, f"helix_angle_deg is -15; permissible 0 to 45 °; {HAND}"),
-        ("gears.helix_angle_deg", 50, "helix_angle_deg is 50; permissible 0 to 45 °"),
+        ("temperatures", {"scuffing_test": {"fzg_stage": 0}}, "fzg_stage is 0; permissible: 1 to 14"),
+        ("gears.wheel.teeth", -61, "teeth is -61; permissible: 5 to 1000; internal gears are not modelled"),
+        ("gears.wheel.teeth", 4, "teeth is 4; permissible: 5 to 1000"),
+        ("gears.helix_angle_deg", -15, f"helix_angle_deg is -15; permissible: 0 to 45 °; {HAND}"),
+        ("gears.helix_angle_deg", 50, "helix_angle_deg is 50; permissible: 0 to 45 °"),
     ],
 )
 def test_a_refused_value_that_has_a_known_cause_says_what_to_give(path: str, value: Any, message: str) -> None:
@@ -64,7 +64,7 @@ def test_a_refused_value_that_has_a_known_cause_says_what_to_give(path: str, val
 
 def test_solvers_say_the_same_of_inputs_built_in_python() -> None:
     inputs = FZG_A
-    with pytest.raises(InvalidInput, match="permissible 0 to 45 °; give the angle without a sign"):
+    with pytest.raises(InvalidInput, match="permissible: 0 to 45 °; give the angle without a sign"):
         checked(replace(inputs, helix_angle=-0.2))
     with pytest.raises(InvalidInput, match="internal gears are not modelled"):
         checked(replace(inputs, wheel=GearTeeth(-61)))
@@ -85,7 +85,7 @@ def test_items_of_a_list_are_pointed_at() -> None:
     fault = all_faults("/v1/coupling", COUPLING, {ERRORS: [1.0, "2", 3.0]})[0]
     assert fault.pointer == "/coupling/pitch_errors_um/1"
     assert fault.message == 'give a number, not text: 2 instead of "2"'
-    message = "pitch_errors_um is 2000000; permissible -10000 to 10000 µm"
+    message = "pitch_errors_um is 2000000; permissible: -10000 to 10000 µm"
     assert refused("/v1/coupling", COUPLING, {ERRORS: [1.0, 2e6]}) == message
 
 

@@ -39,8 +39,8 @@ def fields(found: dict[str, Any]) -> set[str]:
 @pytest.mark.parametrize(
     ("stage", "message"),
     [
-        (4, "failure_load_stage is 4; permissible 5 to 10"),
-        (11, "failure_load_stage is 11; permissible 5 to 10"),
+        (4, "failure_load_stage is 4; permissible: 5 to 10"),
+        (11, "failure_load_stage is 11; permissible: 5 to 10"),
         (7.5, "give a whole number"),
         ("8", "give a number, not text: 8 instead of"),
     ],

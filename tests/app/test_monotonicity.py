@@ -77,7 +77,7 @@ def check_oil_temperature(body: dict[str, Any]) -> None:
         assert hot["flash"]["thermal_ehl_max_k"] < cool["flash"]["thermal_ehl_max_k"]
         assert hot["film"]["thermal_ehl_min_um"] < cool["film"]["thermal_ehl_min_um"]
         said = {each["field"]: each["reason"] for each in hot["assumptions"]}
-        assert "friction of a full film falls" in said["model.lubrication"]
+        assert "A hotter oil makes the full film thinner" in said["model.lubrication"]
 
 
 def check_torque(body: dict[str, Any], temperature: str) -> None:

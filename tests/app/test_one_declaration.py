@@ -236,7 +236,7 @@ def test_an_input_at_the_root_is_one_declaration_too() -> None:
     assert [each["field"] for each in found["assumptions"]] == ["preload_n"]
     with pytest.raises(InvalidBody) as refused:
         validated(PlainRequest, {"force_n": 30, "preload_n": 101})
-    assert refused.value.faults == [("/preload_n", "less_than_equal", "preload_n is 101; permissible 0 to 100 N")]
+    assert refused.value.faults == [("/preload_n", "less_than_equal", "preload_n is 101; permissible: 0 to 100 N")]
 
 
 class _AtOnce:
@@ -344,7 +344,7 @@ def test_inputs_built_in_python_are_checked_where_the_user_asks_for_it() -> None
     with pytest.raises(InvalidInput) as refused:
         checked(replace(spring, stiffness=2e8))
     assert (refused.value.code, refused.value.field) == ("out_of_range", "stiffness")
-    assert refused.value.message == "stiffness is 200 N/µm; permissible above 0 and at most 100 N/µm"
+    assert refused.value.message == "stiffness is 200 N/µm; permissible: above 0 and at most 100 N/µm"
     with pytest.raises(InvalidInput):
         checked(replace(spring, force=float("nan")))
     with pytest.raises(InvalidInput) as refused:

@@ -108,7 +108,7 @@ def test_the_top_of_the_coupling_judges_thrust_and_misalignment_and_answers_the_
     assert "give the shaft diameter" in judged["axial_thrust.design_force_n"].text
     assert judged["limits.allowable_misalignment_deg"].level == "good"
     said = conclusion(slides)
-    assert said.startswith("It does not lock axially: its teeth slide, and its thrust is 9.2")
+    assert said.startswith("The coupling does not lock axially: its teeth slide. Its thrust is 9.2")
     assert slides.lubrication.regime.name in said
     assert "permits a misalignment up to" in said
     assert "limits.allowable_misalignment_deg" in {row.path for row in cards(slides, {})}
@@ -125,7 +125,7 @@ def test_thrust_is_compared_with_the_customary_one(diameter: float, level: str, 
 
 def test_sticking_teeth_lock_axially() -> None:
     operation = {**examples()[COUPLING].request["operation"], "misalignment_deg": 0.0, "axial_velocity_mm_per_s": 0.0}
-    assert conclusion(coupling(operation=operation)).startswith("It locks axially: its teeth stick")
+    assert conclusion(coupling(operation=operation)).startswith("The coupling locks axially: its teeth stick")
 
 
 def test_a_mach_number_of_its_own_size_makes_the_cards_doubtful_and_the_answer_unknown() -> None:

@@ -338,7 +338,7 @@ def test_a_case_that_is_not_kept_any_more_is_gone(client: httpx.Client) -> None:
     ):
         answer = client.get(address)
         assert answer.status_code == 410
-        assert "no longer kept" in answer.json()["detail"]
+        assert "no longer stored" in answer.json()["detail"]
 
 
 def test_missing_headline_says_what_it_needs() -> None:
@@ -366,7 +366,7 @@ def test_names_of_a_report_are_whole_or_refused() -> None:
     assert "<dd>ABC</dd>" in html
     assert "one\ntwo</dd>" in html
     for name, longest in (("author", 200), ("notes", 2000)):
-        with pytest.raises(Unprocessable, match=f"{name}: {longest + 1} characters"):
+        with pytest.raises(Unprocessable, match=f"{name} has {longest + 1} characters"):
             views.report(asked("fzg-type-a", **{name: "n" * (longest + 1)}), "")
 
 
@@ -526,8 +526,8 @@ def test_unknown_views_are_problems(client: httpx.Client) -> None:
     [
         ("/nothing", 404, "There is nothing at this address"),
         ("/scuffing/nothing", 404, "There is nothing at this address"),
-        ("/manual/nothing", 404, "Available chapters: "),
-        ("/coupling/figures/none.svg", 404, "Available figures: "),
+        ("/manual/nothing", 404, "The chapters are "),
+        ("/coupling/figures/none.svg", 404, "The figures are "),
         ("/coupling/figures/losses.svg?case=0", 410, "calculate the case again"),
     ],
 )

@@ -66,9 +66,9 @@ def test_a_case_without_the_output_says_so() -> None:
     *lines, end = lines_of(study)
     nothing = [{**line, "change": None, "derivative": None} for line in lines]
     without = {**end, "outputs": [{**end["outputs"][0], "value": None}]}
-    assert "The case has no thrust to be held" in whole(study, [*nothing, without])
+    assert "The case has no value of the thrust to be held" in whole(study, [*nothing, without])
     still = [{**line, "change": 0.0, "derivative": 0.0} for line in lines]
-    assert "No input moves the thrust to be held" in whole(study, [*still, end])
+    assert "No input changes the thrust to be held" in whole(study, [*still, end])
 
 
 @pytest.mark.parametrize(

@@ -167,7 +167,7 @@ def test_customers_read_where_a_limit_comes_from(client: httpx.Client, name: str
         text = unescape(answer.text)
         limit = text[text.index(">Limit</") :]
         stated = limit[: limit.index("</table>")]
-        assert ("0.15 of itself as deviation (AGMA 925-A03, secondary source)" in stated) is (name != "coupling")
+        assert ("0.15 times its mean (AGMA 925-A03, secondary source)" in stated) is (name != "coupling")
         assert (">given</td>" in stated) is (name == "coupling")
 
 
@@ -215,7 +215,7 @@ def test_the_nominal_machine_alone() -> None:
     said = {"cases": "name;share\nonly;1", "show": "axial_thrust.force_n"}
     lines, page = studied(checked(SpectrumPage, asked(COUPLING, **said)))
     assert lines[-1]["points"] == 1
-    assert "state one, and there is a probability" in page
+    assert "state a limit to get a probability" in page
 
 
 @pytest.mark.parametrize(
@@ -248,7 +248,7 @@ def test_what_is_wrong_stands_at_its_control(client: httpx.Client, said: dict[st
 def test_names_that_contradict_each_other_are_a_fault_on_the_page(client: httpx.Client) -> None:
     page = client.get("/coupling/spectrum?a.b=3&a=x&cases=name")
     assert page.status_code == 400
-    assert "<li>A field occurs twice</li>" in page.text
+    assert "<li>The query contains the same field twice</li>" in page.text
     assert '<form id="study"' in page.text
 
 

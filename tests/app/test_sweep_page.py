@@ -234,7 +234,7 @@ def test_a_map_over_even_ratios_puts_its_points_where_the_axes_have_them() -> No
     [
         ({"x": "coupling.tooth"}, "x", "there is no coupling.tooth"),
         ({"x": "coupling"}, "x", "is a section"),
-        ({"x": "operation.arrangement"}, "x", "no numbers"),
+        ({"x": "operation.arrangement"}, "x", "are not numbers"),
         ({"x": "operation.torque_n_m", "x.from": "abc"}, "x.from", "number"),
         ({"x": "operation.torque_n_m", "x.from": "1e400"}, "x.from", "finite"),
         ({"x": "operation.torque_n_m", "x.from": "5", "x.to": "5"}, "x.from", "must be different"),
@@ -242,14 +242,14 @@ def test_a_map_over_even_ratios_puts_its_points_where_the_axes_have_them() -> No
         ({"x": "operation.torque_n_m", "x.scale": "cubic"}, "x.scale", "linear"),
         ({"x": "operation.torque_n_m", "x.count": "2501"}, "x.count", "the limit is 2500"),
         ({"x": "operation.torque_n_m", "x.count": "1.5"}, "x.count", "whole number"),
-        ({"x": "operation.misalignment_deg", "x.to": "90"}, "x.to", "90 is out of range; permissible -6 to 6"),
+        ({"x": "operation.misalignment_deg", "x.to": "90"}, "x.to", "90 is out of range; permissible: -6 to 6"),
         ({"x": "operation.torque_n_m", "x.to": "1e99"}, "x.to", "torque: 1e+99 is out of range"),
         ({"x": "operation.torque_n_m", "x.from": "5", "x.to": "-5", "x.scale": "log"}, "x.to", "above zero"),
         ({"x": "operation.torque_n_m", "y": "operation.torque_n_m"}, "y", "varied already"),
         ({"x": "operation.torque_n_m", "show": "axial_thrust"}, "show", "is a section"),
         ({"x": "operation.torque_n_m", "show": "lubrication.regime.name"}, "show", "is not a number"),
         ({"x": "operation.torque_n_m", "best": "largest"}, "best", "least, greatest"),
-        ({"y": "operation.torque_n_m"}, "x", "choose a field to vary before a second one"),
+        ({"y": "operation.torque_n_m"}, "x", "choose the first field to vary before the second field"),
     ],
 )
 def test_what_is_refused_stands_at_its_control(said: dict[str, str], control: str, message: str) -> None:
@@ -264,7 +264,7 @@ def test_a_fault_of_the_case_is_named_by_the_title_of_its_field() -> None:
     for html in (study, html_of(wrong, 422)):
         problem = re.search(r'<div class="problem".*?</div>', html, re.DOTALL)
         assert problem
-        assert "transmitted torque is -5; permissible 0 to 100000000 N m" in problem[0]
+        assert "transmitted torque is -5; permissible: 0 to 100000000 N m" in problem[0]
     assert "torque_n_m" not in re.sub(r"<[^>]*>", "", study[study.index('class="problem"') :])
 
 

@@ -104,7 +104,7 @@ def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> 
     grindings: tuple[dict[str, Any], ...] = ({}, wanted["at"])
     cases = [study.solved(at).response.safety.blok_flank for at in grindings]
     assert nominal[1:3] == [shown(each) for each in cases]
-    assert ("With the inputs as described it is worse" in page) == (cases[1] < cases[0])
+    assert ("With the inputs as described the result is worse" in page) == (cases[1] < cases[0])
     numbers = {row[0].partition(":")[0].partition(",")[0]: row[1] for row in rows_of(page, "Which number is which")}
     estimate = study.solved({}).response.misalignment.recommended_helix_slope_um
     assert numbers["first estimate"] == shown(estimate, 4)
@@ -191,7 +191,7 @@ def test_a_unit_without_the_output_says_which_to_choose(page: type[StudyPage]) -
     without = Asked(bare.path, [pair for pair in bare.pairs if not pair[0].startswith("temperatures.scuffing")])
     study = checked(page, without)
     text = whole(study, lines_of(study))
-    assert "choose another output" in text or "has no answer at its worst corner" in text
+    assert "choose another output" in text or "has no solution at one of the corners" in text
 
 
 @pytest.mark.parametrize("page", [SensitivityPage, CornersPage, DesignPage], ids=lambda page: page.link.name)
@@ -210,7 +210,7 @@ def test_the_report_of_a_search_has_the_grinding_sheet() -> None:
     sheet = text.partition("<caption>What to grind</caption>")[2].partition("</table>")[0]
     for row in rows_of(page, "What to grind"):
         assert [cell for cell in row if f">{cell}</td>" not in sheet] == []
-    assert "<p>Working flanks only; deeper: more material removed." in text
+    assert "<p>Only the working flanks are corrected." in text
 
 
 def test_links_alone_lead_from_a_unit_to_its_worst_corner_and_to_what_to_grind(client: httpx.Client) -> None:

@@ -50,7 +50,7 @@ def test_three_variants_stand_in_a_small_table() -> None:
 def test_keeping_a_variant_adds_it() -> None:
     base = asked(COUPLING)
     here = Asked(base.path, base.pairs, {"ref": query(0.1)})
-    (address,) = re.findall(r'href="([^"]+)" title="keep this case as one variant more', html_of(here))
+    (address,) = re.findall(r'href="([^"]+)" title="keep this case as a further variant', html_of(here))
     kept = asked_by(unescape(address))
     assert queries_of(kept) == [here.query]
     assert kept.ref == query(0.1)

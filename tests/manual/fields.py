@@ -20,12 +20,14 @@ from solvers.quantity import UNITS, allowed
 
 HEAD = """# Inputs and outputs
 
-Every field of every request and answer, with its unit, its range, and where it is declared.
+This chapter lists every field of every request and answer, with its unit, its range, and the place where it is \
+declared.
 
-Names carry their unit. A `*` in a path stands for the place in a list. Where paths are alike, endpoints that share a \
-declaration share a row. An attribute of the solver is in SI: the line that computes an output is where this attribute \
-gets its value, as `limits.allowable_misalignment_deg` does at `allowable_misalignment=` in the package named. \
-A value without a solver's attribute is made by the service itself, in the class of its schema. The lines of studies \
+The name of a field ends with its unit. A `*` in a path stands for the position in a list. If several endpoints share \
+the path and the declaration of a field, these endpoints share a row. The column `solver` names an attribute of the \
+solvers, in SI units. To see how an output is computed, search for the line that sets this attribute. For example, the \
+line with `allowable_misalignment=` in the named package computes `limits.allowable_misalignment_deg`. If the column \
+`solver` is empty, the service itself makes the value, in the class named in the column `schema`. The lines of studies \
 are described in [their section](service.md#studies).
 """
 WORDS: dict[Any, str] = {float: "number", int: "integer", bool: "boolean", str: "text", Any: "any"}

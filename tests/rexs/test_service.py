@@ -116,7 +116,7 @@ def test_the_page_of_a_unit_has_an_address_while_it_is_kept(client: httpx.Client
 def test_a_unit_that_is_gone_is_asked_for_again(client: httpx.Client, name: str) -> None:
     gone = client.get(f"/rexs/{name}")
     assert gone.status_code == 410
-    assert "this one is gone" in gone.text
+    assert "This page no longer exists" in gone.text
     assert FIELD in gone.text
 
 

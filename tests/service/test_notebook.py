@@ -18,7 +18,7 @@ RUN = "import sys; from nbclient.cli import main; sys.exit(main())"  # in a proc
 @pytest.mark.parametrize(
     ("name", "figures", "expected"),
     [
-        ("solvers", 4, ("permissible 0.1 to 100 mm", "blok_factor=")),
+        ("solvers", 4, ("permissible: 0.1 to 100 mm", "blok_factor=")),
         ("models", 8, ("flash temperature [K]: by hand", "Grind a helix slope of")),
     ],
 )

@@ -335,7 +335,7 @@ def test_a_long_case_is_posted(visit: Callable[..., Page]) -> None:
     errors = " ".join(f"{0.123456789 * (index % 7):.12f}" for index in range(400))
     page.locator('[name="coupling.pitch_errors_um"]').fill(errors)
     expect(page.locator('[id="f.coupling.pitch_errors_um-count"]')).to_have_text("400 values")
-    expect(page.locator(".tools")).to_contain_text("Too long for a link")
+    expect(page.locator(".tools")).to_contain_text("too long for a link")
     loaded = page.locator(".chart img").evaluate_all(LOADED)
     assert len(loaded) == len(BY_PATH["/v1/coupling"].figures)
     assert all(width > 400 for width, _ in loaded)
@@ -345,7 +345,7 @@ def test_a_long_case_is_posted(visit: Callable[..., Page]) -> None:
     page.get_by_role("button", name="Report").click()
     expect(page.locator("h2").first).to_contain_text("Verdict")
     page.goto("/coupling?unlinked=on")
-    expect(page.locator(".warning")).to_contain_text("does not hold the case")
+    expect(page.locator(".warning")).to_contain_text("does not contain the case")
     page.locator(".open-file input").set_input_files(download.value.path())
     page.get_by_role("button", name="Open", exact=True).click()
     assert page.locator('[name="coupling.teeth"]').input_value() == "400"

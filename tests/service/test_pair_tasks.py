@@ -49,7 +49,7 @@ def test_from_scuffing_to_whether_it_is_choked_nothing_is_typed(
 @WINDOWS
 def test_the_top_of_the_coupling_answers_the_question(visit: Callable[..., Page], window: dict[str, Any]) -> None:
     page = visit(address_of("pahl-axial-displacement"), **window)
-    for text in ("It does not lock axially", "a misalignment up to"):
+    for text in ("The coupling does not lock axially", "a misalignment up to"):
         expect(page.locator(".conclusion")).to_contain_text(text)
     expect(page.locator(".cards")).to_contain_text("permissible misalignment")
     assert overflow(page) <= 0

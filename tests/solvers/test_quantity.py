@@ -92,7 +92,7 @@ def compared(shown: Any, answer: Any) -> int:
 
 
 def test_millimetres_given_as_metres_are_refused_by_name() -> None:
-    with pytest.raises(InvalidInput, match=r"module is 3000 mm; permissible 0\.1 to 100 mm"):
+    with pytest.raises(InvalidInput, match=r"module is 3000 mm; permissible: 0\.1 to 100 mm"):
         checked(Coupling(teeth=52, module=3.0))
     with pytest.raises(InvalidInput, match="pressure_angle is 1145"):
         checked(Coupling(teeth=52, module=3e-3, pressure_angle=20.0))

@@ -330,7 +330,9 @@ def test_what_holds_no_number_says_what_it_is() -> None:
     told = {
         "gears.hand": "gears.hand is an option (right, left), not a number",
         "effects.shafts": "effects.shafts is either true or false, not a number",
-        "gears.pinion.teeth": "gears.pinion.teeth takes only whole numbers; the search needs a continuous field",
+        "gears.pinion.teeth": (
+            "gears.pinion.teeth accepts only whole numbers, but the search needs a field that accepts all numbers"
+        ),
     }
     for path, message in told.items():
         planner, parts = search_over(path=path)

@@ -246,9 +246,9 @@ def test_inputs_of_a_sensitivity(inputs: list[str], pointer: str, code: str) -> 
         ("model.kinematics", "model.kinematics is an option (tangential, spatial), not a number"),
         (
             "coupling.pitch_errors_um",
-            "is a list, not a single value; name one of its values, such as coupling.pitch_errors_um.0",
+            "is a list and not a single value; name one of the values in the list, such as coupling.pitch_errors_um.0",
         ),
-        ("coupling", "coupling is a section, not a single value"),
+        ("coupling", "coupling is a section and not a single value"),
     ],
 )
 def test_what_holds_no_number_says_what_it_is(path: str, words: str) -> None:

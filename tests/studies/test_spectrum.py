@@ -280,7 +280,7 @@ def test_a_scuffing_temperature_that_differs_between_cases_is_said() -> None:
     cases = [{"set": {}}, {"set": {"temperatures.scuffing_test.fzg_stage": 10}}]
     *_, end = solved({**scuffing(), "cases": cases})
     (note,) = end["notes"]
-    assert "differs between the cases" in note
+    assert "not the same in all cases" in note
 
 
 def test_a_scuffing_temperature_that_scatters_is_limited_by_its_median() -> None:
@@ -292,7 +292,7 @@ def test_a_scuffing_temperature_that_scatters_is_limited_by_its_median() -> None
     _, *points, end = solved({**body, "outputs": ["safety.scuffing_c"], "points": True})
     drawn = [line["at"]["temperatures.scuffing_c"] for line in points if line["case"] == 0]
     assert end["limits"][0]["mean"] == pytest.approx(np.median(drawn))
-    assert "differs between the cases or the machines" in end["notes"][0]
+    assert "not the same in all cases and machines" in end["notes"][0]
 
 
 def test_a_tolerance_that_the_model_does_not_use_is_said() -> None:
@@ -302,7 +302,9 @@ def test_a_tolerance_that_the_model_does_not_use_is_said() -> None:
     body["tolerances"]["inputs"].append(drawn)
     *_, end = solved(body)
     (note,) = end["notes"]
-    assert note.startswith("friction_coefficient scatters without effect; not used: `model.friction` asks for")
+    assert note.startswith(
+        "the tolerance of friction_coefficient has no effect; not used, because `model.friction` selects"
+    )
     body["request"]["model"]["friction"] = "given"
     *_, end = solved(body)
     assert end["notes"] == []
@@ -394,7 +396,7 @@ def test_a_study_of_too_many_solutions_is_refused_with_an_estimate() -> None:
     body = coupling(tolerances=friction(count=1024, replicates=100))
     pointer, code, message = fault_of(Spectrum, body, most=20_000)
     assert (pointer, code) == ("/tolerances/count", "too_many_points")
-    assert "is 102400; the limit is 20000" in message
+    assert "is 102400, but at most 20000 are allowed" in message
     assert " s on one core" in message
 
 

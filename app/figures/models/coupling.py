@@ -157,7 +157,7 @@ def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figur
     scan, best = result.scan, result.crowning_ratio
     ratio, capacity = scan.crowning_ratio, scan.min_load_capacity_coefficient
     if not ratio.size:
-        raise NoFigure("no_contact_to_scan", "No crowning ratio gives a contact that can be computed")
+        raise NoFigure("no_contact_to_scan", "The contact cannot be computed at any crowning ratio")
     # The logarithmic axis begins at 1e-4 of its end, because the capacity is zero where the film tears off.
     top = 10.0 ** np.ceil(np.log10(max(float(np.nanmax(capacity)), CAPACITY_BOUNDARIES[1])))
     x = axis(scan, "crowning_ratio", "crowning ratio (left: heavily, right: slightly crowned)", log=True)

@@ -63,7 +63,9 @@ def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> F
     flank, temperatures = result.flank, result.derived.temperatures
     grid, shown = flank.contact_temperature, axis(flank, "contact_temperature", "contact temperature")
     if temperatures.bulk is None:
-        raise NoFigure("no_oil", "Without an oil and a bulk temperature there is no contact temperature", "lubricant")
+        raise NoFigure(
+            "no_oil", "Without an oil and a bulk temperature, the contact temperature cannot be computed", "lubricant"
+        )
     panel = heat_over_flank(face_width(inputs), flank, shown, grid, temperatures.scuffing)
     high = float(grid.max())
     safety = result.safety.blok_flank if result.safety is not None else None
@@ -133,7 +135,9 @@ def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     ]
     rows = [row for row in (*causes, *totals) if row.value != 0.0]
     if not rows:
-        raise NoFigure("no_misalignment", "Neither shafts nor heat open a gap, so there is nothing to draw", "effects")
+        raise NoFigure(
+            "no_misalignment", "Neither the shafts nor the heat cause a gap, so there is nothing to draw", "effects"
+        )
     slope = axis(slopes, "total_slope", "slope of the gap over the face", magnitude=False)
     largest = max(causes, key=lambda row: abs(row.value))
     finding = f"most by the {largest.name}: {number(largest.value, 'µm')}" if largest.value else "heat alone"
@@ -206,7 +210,7 @@ def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
             panel = Panel(x=across, y=up, title=f"{name} shaft", lines=[wall, *lines], marks=marks, equal=True)
             panels.append(panel)
     if not panels:
-        message = "Only plain bearings have a clearance in which a journal moves"
+        message = "The unit has no plain bearing; only a plain bearing has a clearance in which the journal moves"
         raise NoFigure("no_plain_bearing", message, "pinion_shaft")
     finding = f"thinnest film {number(min(films), 'µm')}; lines: as the load falls to zero"
     return Figure(finding, panels, beside=True)

@@ -237,9 +237,17 @@ def safety_over_the_band(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """
     heat, safety, largest = heat_of(result.heat), result.safety, result.flash.blok_max
     if safety is None or safety.blok_factor is None or largest is None:
-        raise NoFigure("no_scuffing_temperature", "Safety needs a load and a scuffing temperature", "temperatures")
+        raise NoFigure(
+            "no_scuffing_temperature",
+            "Without a load and a scuffing temperature no safety can be computed",
+            "temperatures",
+        )
     if heat.band is None or heat.band.safety is None:
-        raise NoFigure("no_band", "Without a band of the heat balance there is only one safety factor", "cooling.band")
+        raise NoFigure(
+            "no_band",
+            "The heat balance states no band of temperatures, so there is only one safety factor",
+            "cooling.band",
+        )
     oil = inputs.temperatures.oil - KELVIN
     cases = [(first + second) / 2 - KELVIN for first, second in heat.flank_cases]
     estimate = heat.estimates.iso_tr_13989_bulk

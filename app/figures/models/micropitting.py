@@ -45,10 +45,13 @@ def where_it_starts(inputs: ScuffingInputs, result: Scuffing, plain: Scuffing | 
 def answered(answer: Micropitting | None) -> Micropitting:
     """Return the answer of the check. Raise NoFigure if there is no answer or no least film ratio."""
     if answer is None:
-        message = "The film needs an oil, and the bulk temperature at which the oil enters the contact"
+        message = "Without an oil and a bulk temperature the film cannot be computed"
         raise NoFigure("no_oil", message, "lubricant")
     if answer.local.least_ratio is None:
-        message = "The minimum film thickness is unknown: no point is loaded, or the loaded path reaches a base circle"
+        message = (
+            "The minimum film thickness is unknown, because no point is loaded or the loaded path of contact reaches "
+            "a base circle"
+        )
         raise NoFigure("no_film", message, "load")
     return answer
 
@@ -136,13 +139,17 @@ def wear_on_flank(inputs: ScuffingInputs, result: Scuffing | DriveTrainResult) -
     """Draw the depth of wear over the flanks of pinion and wheel. Both maps share one scale of colours."""
     wear, flank = result.wear, result.flank
     if wear is None:
-        raise NoFigure("not_asked", "Give a wear coefficient to have the wear of the flanks", "micropitting")
+        raise NoFigure(
+            "not_asked",
+            "Give a wear coefficient; the wear of the flanks is computed with this coefficient",
+            "micropitting",
+        )
     if wear.pinion_max is None or wear.wheel_max is None:
-        message = "The loaded path of contact reaches a base circle, where no wear is defined"
+        message = "The loaded path of contact reaches a base circle; the wear is not defined at a base circle"
         raise NoFigure("no_wear", message, "gears")
     width, highest = inputs.distribution.gears.face_width, max(wear.pinion_max, wear.wheel_max)
     if highest == 0.0:
-        raise NoFigure("no_load", "Without load nothing wears", "load")
+        raise NoFigure("no_load", "Without load there is no wear", "load")
     panels = []
     for gear, grid in (("pinion", wear.pinion_map), ("wheel", wear.wheel_map)):
         depth = axis(Wear, f"{gear}_map", "depth of wear")

@@ -215,7 +215,10 @@ def lead_correction(inputs: PumpingInputs, result: PumpingResult) -> Figure:
     """Draw the thermal growth of the pinion's flank, and the lead correction that compensates this growth."""
     lead = result.lead_correction
     if lead is None:
-        message = "A lead correction needs the temperatures of the pinion's spaces"
+        message = (
+            "The lead correction is computed from the temperatures in the tooth spaces of the pinion; these "
+            "temperatures were not computed"
+        )
         raise NoFigure("no_lead_correction", message, "model.spaces")
     curves = lead.curves
     radial = _along(inputs, "by the radius alone", curves.position, curves.radial_only, Hue.VERMILLION)

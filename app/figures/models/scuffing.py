@@ -64,7 +64,9 @@ def heat_over_flank(width: float, flank: Flank | FlankMaps, shown: Axis, grid: V
     There is a contour at `limit`, the temperature at which scuffing begins.
     """
     if not np.isfinite(grid).all():
-        message = "The loaded path of contact reaches a base circle, where no temperature is defined"
+        message = (
+            "The loaded path of contact reaches a base circle; the flash temperature is not defined at a base circle"
+        )
         raise NoFigure("no_temperature", message, "gears")
     low, high = float(grid.min()), float(grid.max())
     panel = load_distribution.over_flank(width, flank, shown, grid, high if high > low else None, None)
@@ -172,9 +174,7 @@ def _common_limits(panels: Sequence[Panel]) -> tuple[float, float]:
 def _with_oil(result: Scuffing) -> None:
     """Raise NoFigure if the case lacks an oil or the temperature of the oil."""
     if result.path is not None and result.contact_temperature is None:
-        message = (
-            "Film and contact temperature need an oil, and the bulk temperature at which the oil enters the contact"
-        )
+        message = "Without an oil and a bulk temperature, film and contact temperature cannot be computed"
         raise NoFigure("no_oil", message, "lubricant")
 
 
@@ -186,13 +186,17 @@ def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """
     _with_oil(result)
     if result.safety is None:
-        raise NoFigure("no_scuffing_temperature", "Safety needs a scuffing temperature", "temperatures")
+        raise NoFigure(
+            "no_scuffing_temperature", "Without a scuffing temperature no safety can be computed", "temperatures"
+        )
     oil = inputs.temperatures.oil - UNITS["c"].offset
     reserve = result.safety.scuffing - oil
     safeties = {name: _safeties(result, path, oil, reserve) for name, path in _paths(result).items()}
     lines = [line for along in safeties.values() for line in along]
     if not lines:
-        raise NoFigure("no_rise", "The contact is nowhere hotter than the oil, so no safety is defined", "temperatures")
+        raise NoFigure(
+            "no_rise", "No point of the contact is hotter than the oil, so no safety is defined", "temperatures"
+        )
     least = parts.extreme(lines, least=True)[0]
     top = max(1.5, min(SHOWN_SAFETIES * least.y, *(1.1 * float(np.nanmax(line.y)) for line in lines)))
     name, method = next(
@@ -277,7 +281,7 @@ def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     mean = result.flash.friction_coefficient
     solutions = {name: (path.psi, path.thermal) for name, path in _paths(result).items() if path.thermal is not None}
     if not solutions:
-        message = "Friction along the path is available only with the thermal EHL solution"
+        message = "The friction along the path is computed only by the thermal EHL solution"
         raise NoFigure("closed_form", message, "model.lubrication")
     points, warned = _points(inputs, result), _warned(result.path)
     levels = points if mean is None else [*points, Level(mean, f"mean of Blok's flash temperature {number(mean)}")]

@@ -87,7 +87,11 @@ def _add_figures(calculation: Calculation) -> None:
     async def check_name(http: Request) -> None:
         """Answer 404 for an unknown figure or format, before the body is validated."""
         if http.path_params["name"] not in names or http.path_params["format"] not in FORMATS:
-            raise HTTPException(404, f"Available figures: {', '.join(names)}; formats: {', '.join(FORMATS)}")
+            raise HTTPException(
+                404,
+                f"This figure or this format does not exist. The figures are {', '.join(names)}. The formats are "
+                f"{', '.join(FORMATS)}",
+            )
 
     async def show(
         http: Request,

@@ -57,7 +57,7 @@ async def static(name: str) -> Response:
 async def open_case(http: Request) -> Response:
     """Read a case from a file. Redirect to the page of the case; if the case is too long for a link, send the page."""
     if not http.headers.get("content-type", "").startswith("multipart/form-data"):
-        raise HTTPException(415, "Send the file of a case as multipart/form-data")
+        raise HTTPException(415, "Send the file with the case as multipart/form-data")
     async with http.form(max_files=1, max_fields=0) as form:
         sent = form.get("file")
         if sent is None or isinstance(sent, str):
@@ -90,7 +90,7 @@ def functions(http: Request) -> Response:
 def chapter(http: Request, name: str) -> Response:
     """Show a chapter of the manual."""
     if name not in NAMES:
-        raise HTTPException(404, f"Available chapters: {', '.join(NAMES)}, functions")
+        raise HTTPException(404, f"The manual has no such chapter. The chapters are {', '.join(NAMES)}, functions")
     return html(chapter_page(root_of(http), name))
 
 
@@ -135,7 +135,11 @@ def _add(calculation: Calculation) -> None:
     async def figure(http: Request, name: str, image_format: str) -> Response:
         kinds = MEDIA_TYPES | {"json": JSON}
         if name not in names or image_format not in kinds:
-            raise HTTPException(404, f"Available figures: {', '.join(names)}; formats: {', '.join(MEDIA_TYPES)}")
+            raise HTTPException(
+                404,
+                f"This figure or this format does not exist. The figures are {', '.join(names)}. The formats are "
+                f"{', '.join(MEDIA_TYPES)}",
+            )
         media = kinds[image_format]
         if "case" in http.query_params:
             shown = await _shown(http, _kept(http, path), views.figure, name, image_format)
@@ -181,7 +185,7 @@ def _kept(http: Request, path: str) -> Asked:
     query, answers = http.query_params, http.app.state.answers
     kept, kept_ref = (answers.get(key_of(path, [("case", query.get(name, ""))])) for name in ("case", "ref_case"))
     if kept is None or (query.get("ref_case") and kept_ref is None):
-        raise HTTPException(410, "The answer of this case is no longer kept; calculate the case again")
+        raise HTTPException(410, "The answer to this case is no longer stored; calculate the case again")
     return Asked(path, [], {"theme": query.get("theme", "")}, kept, kept_ref)
 
 

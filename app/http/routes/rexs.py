@@ -17,7 +17,10 @@ from app.rexs.document import File
 DOCUMENTED_TYPES = ("application/xml", "application/json", "application/zip")
 TYPES = (*DOCUMENTED_TYPES, "text/xml", "application/x-zip-compressed", "application/octet-stream")
 FORM = "multipart/form-data"
-GONE = "Nothing is stored: the page of a gear unit is kept in memory for a while only, and this one is gone."
+GONE = (
+    "The service keeps the page of a gear unit in memory for a short time only. This page no longer exists; open the "
+    "file again."
+)
 FILE = {"type": "string", "format": "binary"}
 
 
@@ -136,7 +139,7 @@ async def _upload(http: Request) -> Upload:
     if media_type in TYPES:
         return Upload(await http.body())
     if media_type != FORM:
-        raise HTTPException(415, f"send the file as {', '.join(DOCUMENTED_TYPES)} or as {FORM}")
+        raise HTTPException(415, f"send the file with the content type {', '.join(DOCUMENTED_TYPES)}, or as {FORM}")
     async with http.form(max_files=2, max_fields=2, max_part_size=http.app.state.settings.rexs_bytes) as form:
         parts = {name: await part.read() if not isinstance(part, str) else part.encode() for name, part in form.items()}
         name = getattr(form.get("file"), "filename", None) or ""

@@ -42,7 +42,7 @@ async def list_examples() -> list[ExampleSummary]:
 async def show_example(name: Annotated[str, Path(description="name of the example", max_length=100)]) -> Example:
     """Return an example with its request."""
     if name not in examples():
-        raise HTTPException(404, "There is no example of this name; GET /v1/examples lists them")
+        raise HTTPException(404, "There is no example with this name; GET /v1/examples lists all examples")
     return examples()[name]
 
 

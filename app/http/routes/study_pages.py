@@ -33,7 +33,10 @@ def not_from_another_site(http: Request) -> None:
     """Answer 403 if a page of another site asks for a study, because a study occupies all cores for minutes."""
     asks = http.url.query or http.method == "POST"
     if asks and http.headers.get("sec-fetch-site") == "cross-site":
-        raise HTTPException(403, "A page of another site cannot start a study; open the address directly")
+        raise HTTPException(
+            403,
+            "A page of another web site cannot start a study; open the address of the study directly in the browser",
+        )
 
 
 router = APIRouter(include_in_schema=False, dependencies=[Depends(not_from_another_site)])
@@ -49,14 +52,21 @@ def _add(calculation: Calculation, own: type[StudyPage]) -> None:
 
     async def lines(http: Request, media: str) -> Response:
         if media not in own.files:
-            raise HTTPException(404, f"Available: {', '.join(f'{own.link.name}.{each}' for each in own.files)}")
+            raise HTTPException(
+                404,
+                f"This file does not exist. The files are {', '.join(f'{own.link.name}.{each}' for each in own.files)}",
+            )
         study = (await checked(http)).study
         encode = study.encoder(media)
         return await streamed(http, study, lambda found, _: encoded(found, encode), LINE_TYPES[media], policy)
 
     async def figure(http: Request, name: str, image_format: str) -> Response:
         if name not in own.figures or image_format not in IMAGE_TYPES:
-            raise HTTPException(404, f"Available figures: {', '.join(own.figures)}; formats: {', '.join(IMAGE_TYPES)}")
+            raise HTTPException(
+                404,
+                f"This figure or this format does not exist. The figures are {', '.join(own.figures)}. The formats "
+                f"are {', '.join(IMAGE_TYPES)}",
+            )
         content = await _made(http, await checked(http), study_page.file, name, image_format)
         return Response(content, media_type=IMAGE_TYPES[image_format], headers=policy)
 

@@ -63,7 +63,7 @@ function fillTable(details, { header, lines, more }) {
   table.createTHead().append(row("th", header));
   table.createTBody().append(...lines.map((line) => row("td", line)));
   const note = document.createElement("p");
-  note.textContent = more ? `and ${more} lines more in the CSV file` : "";
+  note.textContent = more ? `and ${more} more lines in the CSV file` : "";
   details.querySelector(".scroll").replaceChildren(table, note);
 }
 

@@ -50,7 +50,7 @@ async function update(force = false) {
     shown = wanted;
     history.replaceState(null, "", page.address);
   } catch {
-    say("The service does not answer; the result is that of before.");
+    say("The service does not answer. The result below belongs to the earlier inputs.");
   }
   running = null;
   const again = pressed;
@@ -84,7 +84,7 @@ function leave(result) {
 function take(page, ok) {
   const fresh = page.getElementById("result");
   const here = document.getElementById("result");
-  if (!fresh) { say(page.querySelector(".problem")?.textContent.trim() ?? "No answer."); return; }
+  if (!fresh) { say(page.querySelector(".problem")?.textContent.trim() ?? "The service sent no result."); return; }
   document.querySelector(".jump").replaceWith(document.adoptNode(page.querySelector(".jump")));
   if (!ok && here.querySelector(".cards")) { keepResult(here, fresh, page); return; }
   const open = new Map([...here.querySelectorAll("details")].map((part, index) => [index, part.open]));
@@ -101,7 +101,7 @@ function keepResult(here, fresh, page) {
   here.querySelector(":scope > .problem")?.remove();
   document.getElementById("state").after(document.adoptNode(fresh.querySelector(".problem")));
   here.removeAttribute("aria-busy");
-  say("The result below is that of before.");
+  say("The result below belongs to the earlier inputs.");
   takeFields(page);
 }
 

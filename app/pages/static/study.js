@@ -10,7 +10,7 @@ document.addEventListener("click", (event) => {
   window.stop();
   loading = false;
   event.target.hidden = true;
-  document.getElementById("state").textContent = "Stopped; what was calculated so far is shown.";
+  document.getElementById("state").textContent = "Stopped. The points calculated so far are shown.";
 });
 
 document.addEventListener("change", (event) => {
@@ -39,7 +39,7 @@ function finish() {
 document.addEventListener("click", (event) => {
   const link = event.target.closest("a[href*='/report?']");
   if (!link || link.pathname.startsWith(location.pathname) || event.ctrlKey || event.metaKey || event.shiftKey) return;
-  document.getElementById("state").textContent = "The report is calculated …";
+  document.getElementById("state").textContent = "The report is being calculated …";
   window.addEventListener("pageshow", () => { document.getElementById("state").textContent = ""; }, { once: true });
 });
 

@@ -204,7 +204,7 @@ class StudyPage(ABC):
         path = self.views.get("show") or self.usual_output.path
         output = scalar_at(self.calculation.response, path, "outputs.0", "unknown_output")
         if output.kind not in NUMBERS:
-            raise Unprocessable("unknown_output", f"{output.title} is not a number", "outputs.0")
+            raise Unprocessable("unknown_output", f"{output.title} is not a number; choose another output", "outputs.0")
         return output
 
     def menu(self, name: str, label: str, empty: str, choices: list[Choice]) -> Menu:
@@ -420,7 +420,7 @@ def report(page: StudyPage, lines: list[Line], host: str) -> bytes:
     }
     shown = case_report(page.asked, host, section)
     if shown.status != HTTPStatus.OK:
-        problem = "The case that the study varies cannot be calculated itself; its page says why."
+        problem = "The case that the study varies cannot be calculated. The page of this case states the reason."
         return report_progress(page, page.study.total, problem=problem)
     head, _, body = shown.content.partition(b"<body>")
     return head[head.index(b"<style>") : head.index(b"</head>")] + body

@@ -157,7 +157,9 @@ class UnitPage(StudyPage):
             label = titled(replace(self.input(axis.paths[0]), title=quantity))
             usual = "as in the case" if quantity in self.left_alone else text
             fields.append(self.field(control_of(quantity), label, usual))
-        about = "Values with semicolons between; blanks between inputs that move together."
+        about = (
+            "Write semicolons between the values. If several inputs change together, write blanks between their values."
+        )
         return (Controls("Uncertain inputs", fields=tuple(fields), about=about),)
 
     def corner_table(self, title: str, case: Case, corner: Overrides) -> Table:
@@ -208,7 +210,7 @@ class CornersPage(UnitPage):
         endpoint=DRIVE_TRAIN,
     )
     question = "which corner is worst?"
-    about = f"Every combination of the uncertain inputs: {USUAL_RANGES}."
+    about = f"The result is calculated for every combination of the uncertain inputs: {USUAL_RANGES}."
     figures = ("corners", LOAD_ALONE.name)
     corners = "ranges"
     plan = Corners
@@ -241,7 +243,7 @@ class CornersPage(UnitPage):
         progress = f"{end['points']} corners in {shown(end['elapsed_s'], 2)} s"
         remarks = [warning["message"] for warning in end["warnings"]]
         if output.path not in extremes:
-            remarks.append(f"No corner has a {output.title}; choose another output.")
+            remarks.append(f"No corner has a value of the {output.title}; choose another output.")
             return Result(progress, remarks=tuple(remarks))
         worst = extremes[output.path]["min" if output.view.greatest_is_best else "max"]["at"]
         case, worst_case = self.solved({}), self.solved(worst)
@@ -291,7 +293,7 @@ class CornersPage(UnitPage):
                 least, largest = (Link(shown(end["value"]), self.address(end["at"])) for end in ends)
                 rows.append((leaf.title, shown(value_at(case.response, leaf.path)), least, largest, leaf.unit or ""))
         head = ("output", Number("as described"), Number("least"), Number("largest"), "unit")
-        return Table("Over all corners", head, rows, "A number leads to the case at its corner.")
+        return Table("Over all corners", head, rows, "Click a number to open the case at its corner.")
 
 
 PAGE = CornersPage

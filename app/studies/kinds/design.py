@@ -115,7 +115,9 @@ class Design(Study):
         """Return the output that is the objective. The study has no other outputs."""
         objective = base.output(self.body.objective, "objective")
         if objective.kind not in NUMBERS:
-            raise Unprocessable("unknown_output", f"{objective.path} is not a number", "objective")
+            raise Unprocessable(
+                "unknown_output", f"{objective.path} is not a number; choose another objective", "objective"
+            )
         return (objective,)
 
     def _planned(self, base: BaseRequest, most: int) -> int:
@@ -124,7 +126,10 @@ class Design(Study):
         self.cases = _cases(body, base)
         case = base.checked(self.cases[0]).model_dump()
         if body.direction is None and objective.view.bound is None:
-            message = f"{objective.path} has no safe side of its own; state whether to maximise or minimise it"
+            message = (
+                f"for {objective.path} it is not known whether large or small values are better; set direction to "
+                "maximise or minimise"
+            )
             raise Unprocessable("direction_missing", message, "direction")
         self.direction = body.direction or ("maximise" if objective.view.greatest_is_best else "minimise")
         self.start = [_share(variable, case) for variable in body.variables]  # start of the search in the unit cube
@@ -159,7 +164,9 @@ class Design(Study):
             trials.append(trial)
             objectives.append(signed)
             if objectives[0] is None:
-                message = "the unit that the search starts from has no answer at its worst corner"
+                message = (
+                    "the search cannot start, because the gear unit as described has no solution at one of the corners"
+                )
                 yield [clock.error("no_start", message)]
                 return
             place = await runner.twice_if_lost(pool, next_place, self.start, objectives, self.body.evaluations)
@@ -220,14 +227,21 @@ def _unit(variable: Variable, base: BaseRequest, place: str) -> str | None:
     leaves = [base.leaf(path, f"{place}.path") for path in variable.paths]
     for leaf in leaves:
         if leaf.kind != "number":
-            message = not_a_number(leaf) or f"{leaf.path} takes only whole numbers; the search needs a continuous field"
+            message = (
+                not_a_number(leaf)
+                or f"{leaf.path} accepts only whole numbers, but the search needs a field that accepts all numbers"
+            )
             raise Unprocessable("not_continuous", message, f"{place}.path")
         for name, end in {"min": variable.min, "max": variable.max}.items():
             check_value(leaf, end, f"{place}.{name}")
     if not variable.min < variable.max:
-        raise Unprocessable("variable_range", "a variable needs a range from min to max", place)
+        raise Unprocessable("variable_range", "the value of min must be below the value of max", place)
     if variable.step is not None and floor(variable.max / variable.step) < ceil(variable.min / variable.step):
-        raise Unprocessable("variable_step", "no multiple of the step lies between min and max", f"{place}.step")
+        raise Unprocessable(
+            "variable_step",
+            "no multiple of the step lies between min and max; choose a smaller step or a wider range",
+            f"{place}.step",
+        )
     return common_unit(leaves)
 
 
@@ -292,7 +306,7 @@ def next_place(start: Sequence[float], told: Sequence[list[float] | None], most:
     if len(told) == most:
         return None
     if (first := told[0]) is None:
-        raise NoSolution("design", "the point where the search starts has no solution")
+        raise NoSolution("design", "the search cannot start, because the starting point has no solution")
     scale = VALUE_SCALE * abs(max(first)) or 1.0
     evaluated = {_name(np.array(start)): np.array(first) / scale}
 
@@ -370,8 +384,8 @@ class DesignPage(UnitPage):
     )
     question = "what to grind?"
     about = (
-        "A search for helix slope, crowning and relief, each judged at its worst corner of the uncertain inputs. It "
-        "starts from the correction of the case."
+        "The search varies helix slope, crowning and relief. Each correction is judged at its worst corner of the "
+        "uncertain inputs. The search starts from the correction of the case."
     )
     names = UnitPage.names | {control.name for control in (TRIALS, *ENDS)}
     figures = ("lead", LOAD_ALONE.name, GAP.name, "search")
@@ -448,7 +462,7 @@ class DesignPage(UnitPage):
             f"{end['evaluations']} corrections at {lines[0]['corners']} corners in {shown(end['elapsed_s'], 2)} s",
             figures,
             (_numbers(case, end, at), self.corner_table("The worst corner with this correction", ground, corner)),
-            (f"{unsolved} of the corrections had a corner without solution.",) if unsolved else (),
+            (f"{unsolved} of the corrections have a corner without solution.",) if unsolved else (),
             (
                 Link("Open the unit ground so", self.address(at)),
                 Link("Its report", self.address(at, "/report")),
@@ -491,9 +505,10 @@ class DesignPage(UnitPage):
             rows.append((gear, feature, place, *numbers, leaf.unit or ""))
         numbered = map(Number, ("as described", "grind", "tolerance"))
         note = (
-            f"Working flanks only; deeper: more material removed. Multiples of {STEP_UM:g} µm; tolerances are those "
-            "usual for these corrections. Helix slope and crowning are the sum of both gears, here all on the pinion; "
-            "tip relief of the wheel stands for root relief of the pinion."
+            'Only the working flanks are corrected. "Deeper" means that more material is removed. Corrections are '
+            f"multiples of {STEP_UM:g} µm; the tolerances are usual for these corrections. Helix slope and crowning "
+            "are the sums for both gears and are put on the pinion. Tip relief of the wheel replaces root relief of "
+            "the pinion."
         )
         return Table("What to grind", ("gear", "correction", "where", *numbered, "unit"), rows, note)
 
@@ -513,8 +528,8 @@ class DesignPage(UnitPage):
         )
         if None not in {before, after} and (after < before if output.view.greatest_is_best else after > before):
             note = (
-                "With the inputs as described it is worse than before: the correction is sized for the corner that is "
-                "worst for it, and a flank that is right there is not quite right elsewhere."
+                "With the inputs as described the result is worse than before. The reason is that the correction is "
+                "chosen for its worst corner; a flank that is right at this corner is not quite right elsewhere."
             )
         return Table("What it brings", (output.title, Number("as described"), Number("ground so"), "unit"), rows, note)
 

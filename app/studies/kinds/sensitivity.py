@@ -241,9 +241,15 @@ def _named(base: BaseRequest, case: dict[str, Any], paths: list[str]) -> list[Le
     for place, leaf in enumerate(named):
         message = not_a_number(leaf)
         if message is not None:
-            raise Unprocessable("not_scalar", f"{message}; use a sweep to compare its values", f"inputs.{place}")
+            raise Unprocessable(
+                "not_scalar", f"{message}; use a sweep to compare the values of this field", f"inputs.{place}"
+            )
         if value_at(case, leaf.path) is None:
-            raise Unprocessable("not_scalar", f"{leaf.path} has no number in this case", f"inputs.{place}")
+            raise Unprocessable(
+                "not_scalar",
+                f"{leaf.path} has no value in this case; leave this input out, or give the value in the case",
+                f"inputs.{place}",
+            )
     return named
 
 
@@ -254,7 +260,10 @@ class SensitivityPage(StudyPage):
         "influence", "What matters", "every input moved by its tolerance: which moves the result most", place=2
     )
     question = "which input matters?"
-    about = "Every number of the case is moved by its usual tolerance, else by 1 % (1 K, 1)."
+    about = (
+        "Every number of the case is changed by its usual tolerance. A number without a usual tolerance is changed by "
+        "1 % (temperatures by 1 K, whole numbers by 1)."
+    )
     figures = ("influence",)
     plan = Sensitivity
 
@@ -291,17 +300,17 @@ class SensitivityPage(StudyPage):
                 rows.append(row)
         value, figures, remarks = end["outputs"][0]["value"], dict[str, Figure](), []
         if not isinstance(value, int | float):
-            remarks.append(f"The case has no {output.title}, so nothing moves it.")
+            remarks.append(f"The case has no value of the {output.title}; choose another output.")
         elif (figure := influence(axis_of(output), float(value), steps)).panels:
             figures["influence"] = figure
         else:
-            remarks.append(f"No input moves the {output.title} of this case.")
+            remarks.append(f"No input changes the {output.title} of this case.")
         if GIVEN_BULK in {assumption["reason"] for assumption in end["assumptions"]}:
             remarks.append(f"Oil temperature: {GIVEN_BULK}.")
         changes = f"changes the {output.title} by{f', {difference_unit(output.unit)}' if output.unit else ''}"
         head = ("input", Number("value"), "unit", Number("one step"), Number(changes), Number("% for 1 %"), "remark")
         more = len(rows) - MOST_ROWS
-        note = "A name leads to the curve over that input."
+        note = "Click a name to see the curve over this input."
         note += f" {more} inputs more change it less." if more > 0 else ""
         table = Table("Inputs, the most influential first", head, rows[:MOST_ROWS], note)
         progress = f"{end['points']} cases in {shown(end['elapsed_s'], 2)} s"

@@ -61,13 +61,15 @@ RELATIVE_DEVIATION = 0.15  # AGMA 925-A03; taken from a secondary source and not
 LIMIT_VARIES = 1e-9  # relative range of the scuffing temperature above which a note says that the temperature varies
 SHARES_OFF = 0.01  # the sum of the given shares may differ from 1 by at most this amount
 ASSUMED_DEVIATION = (
-    "the scuffing temperature is normally distributed with 0.15 of itself as deviation (AGMA 925-A03, secondary source)"
+    "the scuffing temperature is assumed to be normally distributed, with a standard deviation of 0.15 times its mean "
+    "(AGMA 925-A03, secondary source)"
 )
 
 RARE = 0.005  # if a probability is smaller, its 90 % interval contains the true value in less than 90 % of all samples
 RARE_NOTE = (
-    "a probability is below 0.5 %. The means of the replicates are then skewed, and a 90 % interval covers less than "
-    "90 %, for example about 80 % at a probability of 0.1 % with 8 replicates of 128 machines; draw more machines"
+    "a probability is below 0.5 %. The results of the replicates are then not distributed symmetrically, and a 90 % "
+    "interval covers the true value in less than 90 % of the studies, for example in about 80 % at a probability of "
+    "0.1 % with 8 replicates of 128 machines. Draw more machines"
 )
 NOT_USED = "not used"  # the reason of an assumption begins with these words if the field has no effect on the results
 
@@ -224,7 +226,7 @@ class Spectrum(Study):
             outputs[place] = base.output(limit.output, place)
         for place, leaf in outputs.items():
             if leaf.kind not in NUMBERS:
-                raise Unprocessable("unknown_output", f"{leaf.path} is not a number", place)
+                raise Unprocessable("unknown_output", f"{leaf.path} is not a number; choose another output", place)
         if body.limits is None and body.endpoint in SCUFFING:
             outputs["limits"] = base.output(SCUFFING[body.endpoint].contact, "limits")
         return tuple({leaf.path: leaf for leaf in outputs.values()}.values())
@@ -236,7 +238,7 @@ class Spectrum(Study):
         self.scattering = scattering(inputs, base, "tolerances.inputs")
         for place, leaf in enumerate(self.scattering):
             if leaf.path in set_by_cases:
-                message = f"{leaf.path} has a value in a case and also scatters; give either the value or the tolerance"
+                message = f"{leaf.path} has both a value in a case and a tolerance; give only one of the two"
                 raise Unprocessable("duplicate_path", message, f"tolerances.inputs.{place}.path")
         if body.limits is None and body.endpoint in SCUFFING:  # the default limit needs the scuffing temperature
             columns = dict.fromkeys([*self.question.outputs, *SCUFFING[body.endpoint]])
@@ -329,7 +331,7 @@ class Spectrum(Study):
             if assumption["reason"].startswith(NOT_USED)
         }
         unused = [path for path in paths_of(self.scattering) if path in reasons]
-        return [f"{path} scatters without effect; {reasons[path]}" for path in unused]
+        return [f"the tolerance of {path} has no effect; {reasons[path]}" for path in unused]
 
 
 def evaluated(study: Spectrum, values: FloatArray) -> Line:
@@ -373,7 +375,9 @@ def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit
         return [_limit(given) for given in study.body.limits or ()], [], []
     temperatures = columns[paths.limit][~np.isnan(columns[paths.limit])]
     if not temperatures.size:
-        missing = "no limit is given, and the request has no scuffing temperature; give one of the two"
+        missing = (
+            "no limit is given, and the request has no scuffing temperature; give a limit or the scuffing temperature"
+        )
         return [], [], [missing]
     first = columns[paths.limit][..., 0]
     mean = float(np.nanmedian(temperatures if np.isnan(first).all() else first))  # median over the machines
@@ -381,7 +385,7 @@ def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit
     assumption = {"field": "limits", "value": limit.deviation, "reason": ASSUMED_DEVIATION}
     varies = np.ptp(temperatures) > LIMIT_VARIES * abs(mean)
     note = (
-        "the scuffing temperature differs between the cases or the machines; its median in the first case, "
+        "the scuffing temperature is not the same in all cases and machines; the median in the first case, "
         f"{mean:.4g}, is used as the limit. To judge by other values, give limits"
     )
     return [limit], [assumption], [note] if varies else []
@@ -483,8 +487,9 @@ def _too_many(question: Question, overrides: Overrides, total: int, most: int) -
     solve_point(question, overrides)
     seconds = perf_counter() - started
     return (
-        f"the number of cases times the number of machines is {total}; the limit is {most}. One solution takes about "
-        f"{seconds:.2g} s, and all solutions take {total * seconds:,.0f} s on one core"
+        f"the number of cases times the number of machines is {total}, but at most {most} are allowed. One solution "
+        f"takes about {seconds:.2g} s, and all solutions take {total * seconds:,.0f} s on one core; reduce the number "
+        "of machines or of cases"
     )
 
 
@@ -511,7 +516,11 @@ def cases_of(calculation: Calculation, text: str) -> list[dict[str, Any]]:
     try:
         heading, *rows = csv.reader(lines, delimiter=separator_of(text))
     except csv.Error:
-        raise Unprocessable("table", "the table cannot be read", "cases") from None
+        raise Unprocessable(
+            "table",
+            "the table cannot be read; write one case per line, with tabs or semicolons between the columns",
+            "cases",
+        ) from None
     columns = [_column(calculation, cell.strip()) for cell in heading]
     return [_case(calculation, columns, row, place) for place, row in enumerate(rows, start=2)] or [{}]
 
@@ -690,14 +699,20 @@ class SpectrumPage(StudyPage):
         place=3,
     )
     question = "its load spectrum"
-    about = "Machines are drawn from the tolerances; each runs every case, and its worst case meets the limit."
+    about = (
+        "Random machines are drawn from the tolerances. Each machine runs every case, and its worst case is compared "
+        "with the limit."
+    )
     names = frozenset(
         {control.name for control in CONTROLS} | {f"{name}{part.name}" for name in TOLERANCES for part in TOLERANCE}
     )
     figures = ("limit", "probability", "decides", "losses")
     outputs = tuple(paths.contact for paths in SCUFFING.values())
     needs = ("cases", *TOLERANCES)
-    choose = "Cases are a table of what each part of the operating time changes; tolerances say how the fields scatter."
+    choose = (
+        "The table of cases lists what changes in each part of the operating time. The tolerances state how the "
+        "fields scatter."
+    )
     plan = Spectrum
     address_of = staticmethod(address_of)
     study: Spectrum
@@ -757,7 +772,10 @@ class SpectrumPage(StudyPage):
         leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
         about: Any = given.get("mean")
         by: Any = given.get("deviation")
-        for value, lacks in ((about, "the value around which it scatters"), (by, "the amount by which it scatters")):
+        for value, lacks in (
+            (about, "the value around which the field scatters"),
+            (by, "the amount by which the field scatters"),
+        ):
             if not is_number(value):
                 raise Unprocessable("missing", f"{leaf.title}: give {lacks}", where)
         law = given["distribution"]
@@ -782,7 +800,7 @@ class SpectrumPage(StudyPage):
         if value is None and scatter is not None:
             raise Unprocessable(
                 "missing",
-                "a deviation of the limit is given without the limit; give the limit as well",
+                "the limit has a deviation but no value; give the value as well",
                 "limits.0.above",
             )
         if value is None:
@@ -800,9 +818,9 @@ class SpectrumPage(StudyPage):
         case = self.case
         text = as_typed(self.views.get("cases", "")) or _suggested(self.calculation, case)
         about = (
-            "The first line names the columns: name, share (of the time) and fields, as the form or the request does.",
-            "One line a case, columns parted by tabs or semicolons, as pasted from a spreadsheet.",
-            "An empty cell changes nothing.",
+            "The first line names the columns: name, share (of the operating time), and fields as in the form.",
+            "One line per case; columns are separated by tabs or semicolons, as in a spreadsheet.",
+            "An empty cell leaves the value of the case unchanged.",
         )
         table = replace(self.field("cases", "cases"), widget="table", text=text, help=about)
         groups = [Controls("Load spectrum", fields=(table,))]
@@ -864,12 +882,12 @@ class SpectrumPage(StudyPage):
                 except NoFigure as error:
                     notes.append(error.message)
         elif not notes:
-            notes.append(f"the {output.title} has no limit here; state one, and there is a probability")
+            notes.append(f"the {output.title} has no limit here; state a limit to get a probability")
         unsolved = end["points"] - sum(end["counts"].get(status, 0) for status in SOLVED)
         if unsolved:
             notes.append(
-                f"{unsolved} of {end['points']} points have no solution; each probability lies between taking them as "
-                "good and as bad"
+                f"{unsolved} of {end['points']} points have no solution. Each probability is a range: these points "
+                "count as good at the lower end and as bad at the upper end"
             )
         tables = (
             *((self._limit_table(end, limit),) if limit else ()),
@@ -944,8 +962,11 @@ class SpectrumPage(StudyPage):
         unit = f", {output.unit}" if output.unit else ""
         judged = ("probability alone", "decides") if limit else ()
         heads = ("share", *judged, f"5 %{unit}", "50 %", "95 %", "unsolved")
-        note = f"Of each case 5, 50 and 95 % of the machines have a lower {output.title}."
-        return Table("Cases", ("case", *map(Number, heads)), rows, f"{note} A name leads to the nominal case.")
+        note = (
+            f"The columns state, for each case, the values of {output.title} below which 5, 50 and 95 % of the "
+            "machines lie."
+        )
+        return Table("Cases", ("case", *map(Number, heads)), rows, f"{note} Click a name to open the nominal case.")
 
     def _outputs_table(self, end: Line) -> Table:
         """Return a table with one row per output: the mean over the operating time, and the extremes.
@@ -964,7 +985,9 @@ class SpectrumPage(StudyPage):
             rows.append((leaf.title, mean, error, *ends, leaf.unit or "", energy))
         heads = map(Number, ("mean", "standard error", "least", "largest"))
         head = ("output", *heads, "unit", Number("kWh a year"))
-        return Table("Over the operating time", head, rows, "A number leads to the machine and case where it is.")
+        return Table(
+            "Over the operating time", head, rows, "Click a number to open the machine and the case with this value."
+        )
 
 
 def _deviation(value: float | None, unit: str | None, digits: int) -> str:
@@ -1003,8 +1026,8 @@ def _tolerances_table(header: Line, limit: Line | None) -> Table:
         described = (scatter["title"], f"{scatter['distribution']}: {law}", scatter["unit"] or "")
         rows.append((*described, percent(scatter["cut_off"]), shown(ranks.get(scatter["path"]), 3)))
     head = ("field", "distribution", "unit", Number("cut off"), Number("rank"))
-    note = "Cut off is the share beyond four deviations or the field's range"
-    return Table("Tolerances", head, rows, f"{note}; rank is the correlation with the worst case.")
+    note = '"Cut off" is the share of values beyond four deviations or outside the range of the field'
+    return Table("Tolerances", head, rows, f'{note}. "Rank" is the rank correlation with the worst case.')
 
 
 PAGE = SpectrumPage

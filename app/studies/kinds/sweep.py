@@ -299,7 +299,7 @@ def _check_best(best: Best, outputs: tuple[Leaf, ...]) -> None:
     judged |= {f"best.where.{place}.output": bound.output for place, bound in enumerate(best.where)}
     for place, path in judged.items():
         if path not in leaf_by_path:
-            message = f"{path} is not among the outputs of the sweep{did_you_mean(path, leaf_by_path)}"
+            message = f"{path} is not an output of the sweep{did_you_mean(path, leaf_by_path)}"
             raise Unprocessable("unknown_output", message, place)
         if leaf_by_path[path].kind == "text":
             raise Unprocessable("unknown_output", f"{path} is not a number", place)
@@ -324,14 +324,14 @@ class SweepPage(StudyPage):
 
     link = StudyLink(VARY, "Vary", "one input or two over a range: a curve or a map", place=1)
     question = "vary an input"
-    about = "One question asked many times; every point is a case of its own."
+    about = "The calculation is repeated for many values. Every point is a case that can be opened."
     names = frozenset({"best"} | {f"{axis}{control.name}" for axis in AXES for control in AXIS})
     figures = ("curve", "family", "map", "worst")
     grows = True
     needs = AXES
     choose = (
-        "Choose a field to vary. One field makes a curve; two make curves or a map. Without a range it goes from "
-        "half to one and a half times the value of the case."
+        "Choose a field to vary. One field gives a curve; two fields give curves or a map. If no range is given, the "
+        "field is varied from half its value in the case to one and a half times this value."
     )
     files = ("csv", "ndjson")
     plan = Sweep
@@ -400,14 +400,14 @@ class SweepPage(StudyPage):
         axis, choices = {"path": leaf.path}, choices_of(leaf)
         if not has_numbers(leaf):
             if where == FIRST or not choices:
-                message = f"{leaf.title} has no numbers; vary another field along this axis"
+                message = f"the values of {leaf.title} are not numbers; vary another field along this axis"
                 raise Unprocessable("not_scalar", message, f"{where}.path")
             return {**axis, "values": choices}
         start, stop, count, scale = given.get("start"), given.get("stop"), given["count"], given["scale"]
         if start is None or stop is None:
             raise Unprocessable(
                 "values_or_range",
-                "the case has no value of this field, from which a range could follow; give from and to",
+                "the case has no value of this field, so no range can be derived from the case; give 'from' and 'to'",
                 where,
             )
         if start == stop:
@@ -439,9 +439,9 @@ class SweepPage(StudyPage):
         goal = "maximise" if self.is_greatest_best else "minimise"
         x, y = map(self.views.get, AXES)
         if y and not x:
-            raise Unprocessable("missing", "choose a field to vary before a second one", "vary.0.path")
+            raise Unprocessable("missing", "choose the first field to vary before the second field", "vary.0.path")
         if y and y == x:
-            raise Unprocessable("duplicate_path", "this field is varied already; choose another", "vary.1.path")
+            raise Unprocessable("duplicate_path", "this field is varied already; choose another field", "vary.1.path")
         return {
             "endpoint": self.calculation.path,
             "request": self.asked.body,
@@ -564,7 +564,7 @@ class SweepPage(StudyPage):
             rows.append((*at, shown(line["out"][0]), f"{status}: {remarks}" if remarks else status, link))
         titles = [Number(titled(leaf)) for leaf in (*self.study.points.varied, self.output)]
         more = len(received) - MOST_ROWS
-        note = f"and {more} points more in the CSV file" if more > 0 else ""
+        note = f"and {more} more points in the CSV file" if more > 0 else ""
         return Table("Points", (*titles, "status", "case"), rows, note, folded=True)
 
     def point_address(self, index: int) -> str:

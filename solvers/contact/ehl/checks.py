@@ -74,7 +74,8 @@ def _check_motion(inputs: LineContactInputs) -> None:
     if contact.entrainment_speed < LOWEST_SPEED:
         raise InvalidInput(
             "no_entrainment",
-            f"the mean surface speed must be at least {LOWEST_SPEED:g} m/s, because it draws the oil into the contact",
+            f"the mean surface speed must be at least {LOWEST_SPEED:g} m/s, because this speed draws the oil into the "
+            "contact",
             "speed_1",
         )
     if inputs.model.thermal and min(contact.speed_1, contact.speed_2) <= 0.0:
@@ -121,8 +122,8 @@ def _check_oil(inputs: LineContactInputs) -> None:
             raise InvalidInput(
                 "viscosity_range",
                 f"at {temperature:g} K the laws of the oil give a viscosity of 10^{logarithm / log(10.0):.2g} Pa s, "
-                f"outside the range from {LOWEST_VISCOSITY:g} to {HIGHEST_VISCOSITY:g} Pa s; bring the temperatures "
-                "nearer to the reference temperature, or lower the temperature-viscosity coefficient",
+                f"but the viscosity must be between {LOWEST_VISCOSITY:g} and {HIGHEST_VISCOSITY:g} Pa s; bring the "
+                "temperatures nearer to the reference temperature, or lower the temperature-viscosity coefficient",
                 "temperature_viscosity",
             )
 
@@ -143,8 +144,8 @@ def _check_load(inputs: LineContactInputs) -> None:
         raise InvalidInput(
             "viscosity_range",
             f"at the Hertzian pressure of {scales.maximum_pressure * 1e-9:.2g} GPa the laws of the oil give a "
-            f"viscosity above {HIGHEST_VISCOSITY_UNDER_PRESSURE:g} Pa s; lower the pressure-viscosity coefficient or "
-            "the load, or (with Roelands' law) raise the viscosity",
+            f"viscosity above {HIGHEST_VISCOSITY_UNDER_PRESSURE:g} Pa s; lower the load or the pressure-viscosity "
+            "coefficient, or (with Roelands' law) raise the viscosity at ambient pressure",
             "pressure_viscosity",
         )
     gap = expected_gap(inputs)
@@ -152,8 +153,8 @@ def _check_load(inputs: LineContactInputs) -> None:
         raise InvalidInput(
             "load_range",
             f"the film would be more than {THICKEST_FILM:g} times as thick as the deformation of the surfaces (Moes' "
-            f"load parameter M = {scales.moes_m:.2g}), so that the surfaces are practically rigid; raise the line "
-            "load, or lower speed or viscosity",
+            f"load parameter M = {scales.moes_m:.2g}). Such surfaces are practically rigid, and the model cannot be "
+            "used; raise the line load, or lower speed or viscosity",
             "line_load",
         )
     if gap * scales.gap_scale < THINNEST_FILM:

@@ -41,9 +41,9 @@ def input_notices(inputs: LineContactInputs, groups: Dimensionless) -> list[Noti
         notices.append(
             Notice(
                 "low_peclet",
-                f"the Peclet number of surface {side} is {slowest:.2g}, below {LOWEST_PECLET:g}. Heat then also "
-                "spreads along the surface, and the computed flash temperature is too high: by 3 to 7 % at a Peclet "
-                "number of 4.5, by 6 % at 1 and by 19 % at 0.35",
+                f"the Peclet number of surface {side} is {slowest:.2g}, which is below {LOWEST_PECLET:g}. Heat then "
+                "also spreads along the surface, and the computed flash temperature is too high: by 3 to 7 % at a "
+                "Peclet number of 4.5, by 6 % at 1 and by 19 % at 0.35",
                 f"speed_{side}",
             )
         )
@@ -52,7 +52,7 @@ def input_notices(inputs: LineContactInputs, groups: Dimensionless) -> list[Noti
             Notice(
                 "newtonian_low_slip",
                 "for |slide-roll ratio| < 0.3 the traction of a Newtonian oil is not reliable, because there is too "
-                "little heating to limit the traction; use ree_eyring",
+                "little heating to limit the traction; choose the rheology ree_eyring",
                 "rheology",
             )
         )
@@ -75,8 +75,8 @@ def result_notices(film: FilmThickness, friction: ContactFriction, heat: Contact
         notices.append(
             Notice(
                 "high_traction",
-                f"the shear stress reaches {friction.traction_ratio:.2g} times the pressure, but oils shear at 0.05 to "
-                "0.08 times the pressure",
+                f"the shear stress reaches {friction.traction_ratio:.2g} times the pressure, but real oils reach only "
+                "0.05 to 0.08 times the pressure",
                 "rheology",
             )
         )
@@ -97,7 +97,8 @@ def mesh_notices(error: MeshError | None) -> list[Notice]:
         return [
             Notice(
                 "mesh_error",
-                "the error of the numerical grid could not be estimated; compare the results with those of more nodes",
+                "the error of the numerical grid could not be estimated; repeat the calculation with more nodes, and "
+                "compare the results",
                 "nodes",
             )
         ]
@@ -119,7 +120,8 @@ def mesh_notices(error: MeshError | None) -> list[Notice]:
 def failure_notice(convergence: Convergence) -> Notice:
     """Return the warning that says why there is no solution."""
     message = (
-        f"with {convergence.nodes} nodes {FAILURES[convergence.stage]}; try another number of nodes, or ree_eyring"
+        f"with {convergence.nodes} nodes {FAILURES[convergence.stage]}; try another number of nodes, or the rheology "
+        "ree_eyring"
     )
     return Notice("not_converged", message, "nodes", rank="invalid")
 

@@ -85,7 +85,7 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
     for inputs in contacts:
         check(inputs)
         if inputs.model != contacts[0].model:
-            raise InvalidInput("mixed_models", "all contacts of a path must have the same model", "model")
+            raise InvalidInput("mixed_models", "all contacts of a path must be computed with the same model", "model")
     walk = _Walk()
     return [_solve_next(inputs, walk) for inputs in contacts]
 

@@ -145,7 +145,7 @@ def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -
         state = _advance(unit, mesh, state)
     raise NoSolution(
         "drive_train",
-        "the iteration for the common gap of shafts and mesh did not converge",
+        "the iteration between the deflections of the shafts and the loads of the mesh did not converge",
         {"residual_um": state.size * 1e6},
     )
 

@@ -106,7 +106,9 @@ def respond(unit: Unit, force: FloatArray, start: HubLoads) -> Yielding:
         if yielding is None:
             yielding, residual = _solve(unit, force, _raise_loads(unit, force, free))
     if yielding is None:
-        raise NoSolution("drive_train", "the tilts of the couplings' hubs did not converge", {"tilt_rad": residual})
+        raise NoSolution(
+            "drive_train", "the iteration for the tilts of the coupling hubs did not converge", {"tilt_rad": residual}
+        )
     return yielding
 
 
@@ -168,7 +170,7 @@ def solve_linear(matrix: FloatArray, right: FloatArray) -> FloatArray:
     try:
         return np.asarray(np.linalg.solve(matrix, right), dtype=float)
     except np.linalg.LinAlgError as error:
-        message = "the deflections of shafts and couplings have no limit, because their equations are singular"
+        message = "the deflections of shafts and couplings cannot be computed, because the equations are singular"
         raise NoSolution("drive_train", message, {"reciprocal_condition": 0.0}) from error
 
 

@@ -180,8 +180,8 @@ def _eccentricity(load: float) -> float:
     """Return the eccentricity ratio at a load number."""
     if load > load_number(LARGEST_ECCENTRICITY):
         message = (
-            "the film of a plain bearing cannot carry the load, because it would be thinner than a thousandth of the "
-            "clearance"
+            "the film of a plain bearing cannot carry the load, because the film would be thinner than a thousandth "
+            "of the clearance"
         )
         raise NoSolution("journal", message, {"load_number": load})
     return _invert_load_number(load)

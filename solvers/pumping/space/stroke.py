@@ -113,7 +113,8 @@ def _check_area(angle: FloatArray, area: FloatArray) -> None:
     if wrong.any():
         where = degrees(angle[int(np.argmax(wrong))])
         message = (
-            f"near {where:.3f} deg the area of the tooth space has a second minimum. With tip gaps the point nearest "
-            "to a tip corner can jump along the root; use contact gaps, which have no such jump"
+            f"near {where:.3f} deg the area of the tooth space has a second minimum. With the option of tip gaps, the "
+            "point nearest to a tip corner can jump along the root. Use the option of contact gaps, which avoids this "
+            "jump"
         )
         raise InvalidInput("tooth_space_minima", message, "gears")

@@ -52,7 +52,7 @@ def range_notices(given: LoadDistributionInputs, path: PathOfContact) -> Iterato
         (helix, (0.0, LARGEST_ANGLE), "a helix angle of {:.4g}°", f"helix {highest}", "helix_angle"),
     ):
         if not low - ROUNDING <= value <= high + ROUNDING:
-            message = f"the method against micropitting is known to hold for {allowed}, but the pair has "
+            message = f"the method against micropitting is known to hold only for {allowed}, but the pair has "
             yield Notice("micropitting_range", message + text.format(value), field)
 
 

@@ -131,14 +131,15 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, fl
         raise InvalidInput("scuffing_temperature", message, "temperatures.scuffing")
     bulk = temperatures.bulk
     if bulk is None and temperatures.bulk_method != "estimated":
-        message = f"the method '{temperatures.bulk_method}' needs a bulk temperature; give one"
+        message = f"the method '{temperatures.bulk_method}' needs a bulk temperature; give a bulk temperature"
         raise InvalidInput("missing_bulk", message, "temperatures.bulk")
     if bulk is None:
         return replace(inputs, temperatures=temperatures, oil=oil, lubricant=None)
     if isinstance(oil, OilSheet) and not COLDEST_OIL <= bulk <= HOTTEST_OIL:
         message = (
-            f"the oil would enter the contact at {bulk - 273.15:.4g} °C, where grade and data sheet are not valid; "
-            "reduce the load, give another bulk temperature, or give the viscosity of the oil"
+            f"the oil would enter the contact at {bulk - 273.15:.4g} °C, but the grade and the data sheet are not "
+            "valid at this temperature; reduce the load, give another bulk temperature, or give the viscosity of the "
+            "oil"
         )
         raise InvalidInput("oil_temperature", message, "temperatures.bulk_method")
     return replace(inputs, temperatures=temperatures, lubricant=lubricant_at(oil, bulk))
@@ -156,8 +157,8 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
     yield from _material_notices(inputs)
     if inputs.temperatures.bulk is None:
         message = (
-            "the path of contact reaches a base circle, where no flash temperature is defined, so that the bulk "
-            "temperature cannot be estimated. Film, contact temperature and safety are not stated; give the bulk "
+            "the bulk temperature cannot be estimated, because the path of contact reaches a base circle, where the "
+            "flash temperature is not defined. Film, contact temperature and safety are not stated; give the bulk "
             "temperature"
         )
         yield Notice("no_bulk_estimate", message, "temperatures.bulk_method", rank="invalid")
@@ -165,14 +166,14 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
     speed = pitch_line_velocity(inputs.distribution, path)
     if inputs.temperatures.bulk_method == "estimated" and speed > FLOODED_UP_TO:
         message = (
-            f"the estimate of the bulk temperature holds for flooded flanks; at {speed:.4g} m/s, above 60 m/s, it is a "
-            "lower bound. The real contact temperature is higher and the real safety is lower than stated"
+            f"the bulk temperature is estimated for flooded flanks. At {speed:.4g} m/s (above 60 m/s) this estimate "
+            "is only a lower bound; the real contact temperature is higher and the real safety is lower than stated"
         )
         yield Notice("bulk_lower_bound", message, "temperatures.bulk_method")
     if inputs.temperatures.bulk_method != "heat_balance" and inputs.cooling != Cooling():
         message = (
-            "the inputs of the cooling are not used, because the bulk temperature is "
-            f"{inputs.temperatures.bulk_method}; only the method heat_balance uses them"
+            "the inputs of the cooling are used only if bulk_method is 'heat_balance'; here bulk_method is "
+            f"'{inputs.temperatures.bulk_method}'"
         )
         yield Notice("cooling_not_used", message, "temperatures.bulk_method", rank="note")
 

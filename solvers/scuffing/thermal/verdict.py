@@ -242,7 +242,7 @@ def _other_verdict(flank: float, feature_line: float | None) -> list[Notice]:
         return []
     along = "the teeth stay as cool as the oil" if feature_line is None else f"the safety is {feature_line:.2f}"
     message = (
-        f"since version 0.3 the whole flank is judged; the safety of the whole flank is {flank:.2f}, but along the "
-        f"feature line {along}"
+        f"since version 0.3 the stated safety is the smallest safety on the whole flank, which is {flank:.2f}; along "
+        f"the feature line {along}"
     )
     return [Notice("whole_flank", message, "model.line", rank="note")]

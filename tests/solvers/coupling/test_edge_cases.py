@@ -157,7 +157,7 @@ def test_allowable_misalignment_is_given_or_its_absence_explained(
 def test_without_load_the_notice_says_what_regime_and_friction_rest_on(misalignment: float, area: str) -> None:
     result = solve(pahl_coupling(misalignment, torque=0.0, friction=None))
     message = next(notice.message for notice in result.warnings if notice.code == "no_load")
-    assert "regime and coefficient of friction are those of a vanishing load" in message
+    assert "regime and the coefficient of friction are stated for a very small load" in message
     vanishing = solve(pahl_coupling(misalignment, torque=1e-6, friction=None)).lubrication
     assert result.lubrication.regime.area == vanishing.regime.area == area
     assert result.lubrication.friction_coefficient == pytest.approx(vanishing.friction_coefficient, rel=1e-6)

@@ -54,7 +54,7 @@ def test_refusals(code: str, field: str, values: dict[str, object]) -> None:
 
 def test_ranges_of_parts_are_checked_by_name() -> None:
     thin = changed(PLAIN_UNIT, {"couplings.0.coupling.face_width": -1.0})
-    with pytest.raises(InvalidInput, match=r"face_width is -1000 mm; permissible 0\.1 to 2000 mm") as refusal:
+    with pytest.raises(InvalidInput, match=r"face_width is -1000 mm; permissible: 0\.1 to 2000 mm") as refusal:
         drive_train.solve(thin)
     assert refusal.value.code == "out_of_range"
 

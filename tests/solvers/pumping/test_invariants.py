@@ -189,7 +189,7 @@ def test_advice_on_speed_is_on_that_of_the_pinion(spaces: Spaces) -> None:
     with pytest.raises(InvalidInput) as refusal:
         solve(PumpingInputs(setup, 300 * pi / 30))
     assert (refusal.value.code, refusal.value.field) == ("too_many_steps", "pinion_speed")
-    found = re.search(r"at least ([\d.e+]+) rpm of the pinion, or at most (\d+) slices", refusal.value.message)
+    found = re.search(r"at least ([\d.e+]+) rpm, use at most (\d+) slices", refusal.value.message)
     fits = changed(setup, {"model.slices": int(found.group(2))})
     assert solve(PumpingInputs(fits, 300 * pi / 30)).slices == int(found.group(2))
 

@@ -215,7 +215,7 @@ def test_an_oil_by_its_viscosity_follows_its_own_law(law: PressureViscosityLaw) 
 
 def test_an_oil_that_would_be_solid_in_the_test_is_refused() -> None:
     oil = Lubricant(viscosity=100.0, reference_temperature=570.0, temperature_viscosity=0.2)
-    with pytest.raises(InvalidInput, match="above the limit of 10000") as refusal:
+    with pytest.raises(InvalidInput, match="the largest permissible viscosity is 10000") as refusal:
         film_of_test(oil, 8)
     assert refusal.value.code == "viscosity_range"
 
