@@ -4,7 +4,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Annotated, Any, cast
 
-from fastapi import APIRouter, Body, Depends, HTTPException, Path, Query, Request, Response
+from fastapi import APIRouter, Body, Depends, Path, Query, Request, Response
 from pydantic import BaseModel
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
@@ -14,7 +14,7 @@ from app.figures import MEDIA_TYPES, Format
 from app.figures.data import ThemeName
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
-from app.http.routes.pages import DOCUMENT_POLICY
+from app.http.routes.pages import DOCUMENT_POLICY, unknown_figure
 from app.schema.model import Request as Model
 from app.schema.quantities import Output
 
@@ -87,11 +87,7 @@ def _add_figures(calculation: Calculation) -> None:
     async def check_name(http: Request) -> None:
         """Answer 404 for an unknown figure or format, before the body is validated."""
         if http.path_params["name"] not in names or http.path_params["format"] not in FORMATS:
-            raise HTTPException(
-                404,
-                f"This figure or this format does not exist. The figures are {', '.join(names)}. The formats are "
-                f"{', '.join(FORMATS)}",
-            )
+            raise unknown_figure(names, FORMATS)
 
     async def show(
         http: Request,

@@ -1,7 +1,7 @@
 """Start page, manual and pages of cases. The addresses of all views of a case have the same query."""
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from http import HTTPStatus
 from mimetypes import guess_type
@@ -135,11 +135,7 @@ def _add(calculation: Calculation) -> None:
     async def figure(http: Request, name: str, image_format: str) -> Response:
         kinds = MEDIA_TYPES | {"json": JSON}
         if name not in names or image_format not in kinds:
-            raise HTTPException(
-                404,
-                f"This figure or this format does not exist. The figures are {', '.join(names)}. The formats are "
-                f"{', '.join(MEDIA_TYPES)}",
-            )
+            raise unknown_figure(names, MEDIA_TYPES)
         media = kinds[image_format]
         if "case" in http.query_params:
             shown = await _shown(http, _kept(http, path), views.figure, name, image_format)
@@ -227,6 +223,12 @@ def problem_page(
     """
     place = path_of(http).split("/")[1]
     return html(rendered("problem.html", root_of(http), title=title, detail=detail, place=place), status, headers)
+
+
+def unknown_figure(names: Iterable[str], formats: Iterable[str]) -> HTTPException:
+    """Return the error for a figure or a format that does not exist."""
+    available = f"The figures are {', '.join(names)}. The formats are {', '.join(formats)}"
+    return HTTPException(404, f"This figure or this format does not exist. {available}")
 
 
 def root_of(http: Request) -> str:

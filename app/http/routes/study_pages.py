@@ -33,10 +33,7 @@ def not_from_another_site(http: Request) -> None:
     """Answer 403 if a page of another site asks for a study, because a study occupies all cores for minutes."""
     asks = http.url.query or http.method == "POST"
     if asks and http.headers.get("sec-fetch-site") == "cross-site":
-        raise HTTPException(
-            403,
-            "A page of another web site cannot start a study; open the address of the study directly in the browser",
-        )
+        raise HTTPException(403, "A page of another web site cannot start a study; open the study's address directly")
 
 
 router = APIRouter(include_in_schema=False, dependencies=[Depends(not_from_another_site)])
@@ -62,11 +59,7 @@ def _add(calculation: Calculation, own: type[StudyPage]) -> None:
 
     async def figure(http: Request, name: str, image_format: str) -> Response:
         if name not in own.figures or image_format not in IMAGE_TYPES:
-            raise HTTPException(
-                404,
-                f"This figure or this format does not exist. The figures are {', '.join(own.figures)}. The formats "
-                f"are {', '.join(IMAGE_TYPES)}",
-            )
+            raise pages.unknown_figure(own.figures, IMAGE_TYPES)
         content = await _made(http, await checked(http), study_page.file, name, image_format)
         return Response(content, media_type=IMAGE_TYPES[image_format], headers=policy)
 
