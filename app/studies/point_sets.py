@@ -236,7 +236,10 @@ class Cut(NamedTuple):
 
     @property
     def cut_off(self) -> float:
-        """The share of the uncut distribution below `low` and above `high`; 0 if `low` and `high` are equal."""
+        """The share of the uncut distribution below `low` and above `high`.
+
+        The share is 0 if `low` and `high` are equal, because the field then has a fixed value.
+        """
         low, high = self.shares
         return low + 1.0 - high if self.low < self.high else 0.0
 

@@ -80,9 +80,9 @@ class FilmState:
 def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
     """Compute the largest normal tooth force [N] while one tooth is at 90 degrees, in the tilt position.
 
-    If the pitch deviations of the teeth differ, the result is the largest force in a whole revolution. With `spatial`
-    kinematics the displacement of a tooth is not largest in the tilt position, but somewhat beyond this position. Just
-    beyond the tilt position a tooth therefore carries a larger force than in the tilt position.
+    If the pitch deviations of the teeth differ, the result is the largest force at any rotor angle of a revolution.
+    This search includes angles between the tilt positions of two teeth, because with `spatial` kinematics the
+    displacement of a tooth is largest somewhat beyond the tilt position.
     """
     if len(set(inputs.coupling.pitch_errors or ())) <= 1:
         return float(_largest_forces(inputs, mesh, _positions_at(pi / 2, inputs.coupling.teeth)).max())

@@ -310,8 +310,10 @@ def linearise_balances(
 def column_slopes(
     i: int, temperature: FloatArray, g: float, h: float, conductance: float, inertia: float, film: Film, heat: Heat
 ) -> None:
-    """Compute the derivatives of `column_residual`: the rows of the matrix, and the four right-hand sides.
+    """Compute the derivatives of `column_residual` with respect to the temperatures and to four other quantities.
 
+    The derivatives with respect to the temperatures are the rows of the matrix. The four other derivatives are
+    right-hand sides. They hold for the mid-film stress tau_m, for p, for G = h dp/dx and for h.
     The heat that shear generates in an interval is stress times rate. This heat depends on temperature and p through
     the viscosity. This heat also depends on the stress, and a change of the mid-film stress tau_m changes the stress in
     all intervals.

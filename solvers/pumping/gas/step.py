@@ -258,7 +258,7 @@ def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
 
 @kernel
 def _own_flux(g: float, area: float, edge: State) -> Conserved:
-    """Compute the flux through an edge of a cell from the state `edge` of this cell at the edge.
+    """Compute the flux through a border of a cell. `edge` is the state of this cell at the border.
 
     The ram pressure is computed as the density times the squared velocity, and not by the function `ram_pressure`. That
     function multiplies in another order, and so its result has other rounding errors.
