@@ -75,7 +75,7 @@ def _clearances(gear: str, shaft: Shaft) -> Range:
 
 
 def _together(inputs: DriveTrainInputs, quantity: str, name: str, values: tuple[float, ...]) -> Range:
-    """Return the range of an input of the couplings. All couplings take the same value of the range at the same time."""
+    """Return the range of an input of the couplings. All couplings take the same value at the same time."""
     names = tuple(f"couplings.{k}.{name}" for k in range(len(inputs.acting_couplings)))
     return Range(quantity, names, tuple((value,) * len(names) for value in values))
 
