@@ -79,8 +79,8 @@ class ShaftBearing:
         if viscosity is None:
             if oil is None:
                 message = (
-                    "a plain bearing needs a viscosity if the gears have no oil; give the viscosity of the bearing or "
-                    "the oil of the gears"
+                    "a plain bearing needs a viscosity if the gears have no oil; give a viscosity at the bearing, or "
+                    "give an oil for the gears"
                 )
                 raise InvalidInput("no_oil", message, "viscosity")
             viscosity = gear_oil_viscosity(oil, oil_temperature, self.film_temperature)

@@ -181,8 +181,8 @@ def unusual_modifications(modifications: Modifications) -> Iterator[Notice]:
     highest = max(map(abs, modifications.lead_curve.gap), default=0.0)
     if 0.0 < highest < LEAST_MODIFICATION:
         message = (
-            f"a largest gap of {highest * 1e6:g} µm is too small to be ground; was a value entered in the wrong unit "
-            "(mm)?"
+            f"a lead curve whose largest gap is {highest * 1e6:g} µm is too small to be ground; was a value entered in "
+            "the wrong unit (mm)?"
         )
         yield unusual_value("modifications.lead_curve.gap", message)
 

@@ -214,7 +214,7 @@ def path_notices(
             Notice(
                 "unsolved_points",
                 f"{status.count('no_solution')} of {len(status)} points have no solution and {status.count('refused')} "
-                f"are outside the range of the model. The extreme value may lie at {unknown} of these points. "
+                f"are outside the range of the model. Any of {unknown} of these points could have the extreme value. "
                 "Therefore no largest flash temperature, thinnest film or safety is stated",
                 rank="invalid",
             )
