@@ -188,8 +188,8 @@ class ShaftBearing(Section):
             return self.si(si.JournalBearing)
         if scuffing.oil is None:
             message = (
-                "a plain bearing needs a viscosity if the gears have no oil; give a viscosity at the bearing, or give an "
-                "oil for the gears"
+                "a plain bearing needs a viscosity if the gears have no oil; give a viscosity at the bearing, or give "
+                "an oil for the gears"
             )
             raise InvalidInput("no_oil", message, "viscosity")
         film = None if self.film_temperature_c is None else UNITS["c"].to_si(self.film_temperature_c)
