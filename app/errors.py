@@ -143,7 +143,11 @@ PROBLEMS: dict[type[Exception], Kind] = {
     MemoryError: Kind(
         503, "memory_limit", "The calculation needs more memory than a worker may use; make the calculation smaller"
     ),
-    DeadlineExceeded: Kind(504, "deadline_exceeded", "The calculation took too long; make the calculation smaller"),
+    DeadlineExceeded: Kind(
+        504,
+        "deadline_exceeded",
+        "The calculation took too long; make the calculation smaller, or try again later if the service is busy",
+    ),
     ClientGone: Kind(499, "client_gone", "The client closed the connection"),
 }
 
