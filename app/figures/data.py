@@ -265,7 +265,9 @@ class Figure:
     def subtitle(self) -> str:
         """Text below the title: the number of points without a solution, the finding, and the source."""
         gaps = f"{self.unsolved} point{'s' * (self.unsolved > 1)} without solution" if self.unsolved else ""
-        return " · ".join(part for part in (gaps, self.finding, self.source.replace(" ", NO_BREAK)) if part)
+        finding = re.sub(r"(?<=\d) | (?==)|(?<==) ", NO_BREAK, self.finding)  # keeps numbers with their units
+        parts = (gaps, finding, self.source.replace(" ", NO_BREAK))
+        return f"{NO_BREAK}· ".join(part for part in parts if part)
 
 
 class NoFigure(Unprocessable):
