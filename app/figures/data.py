@@ -94,7 +94,8 @@ class Line:
     """Points over an abscissa, drawn as a curve, as bars or as the outline of a polygon.
 
     A line that is not `named` is left out of the legend, because the title of the ordinate already names the line. If
-    several polygons have the same title, the legend lists this title once.
+    several polygons have the same title, the legend lists this title once. Curves of results that have the same hue are
+    told apart by `stroke`, the number of their pattern of dashes; 0 is a solid curve.
     """
 
     title: str
@@ -103,6 +104,7 @@ class Line:
     hue: Hue = Hue.BLUE
     role: Role = Role.RESULT
     named: bool = True
+    stroke: int = 0
 
     def mark(self, index: int, text: str) -> Mark:
         """Return a mark at the point with this index, in the hue of the line."""

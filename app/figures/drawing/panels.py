@@ -18,7 +18,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocato
 from matplotlib.transforms import Bbox, BboxBase, ScaledTranslation
 
 from app.figures.data import Line, Map, Panel, Role, Row, Scale, Values
-from app.figures.drawing.style import DASHES, LIMIT, TEXT, patch, written
+from app.figures.drawing.style import DASHES, LIMIT, STROKES, TEXT, patch, written
 from app.figures.wording import NOISE, number, without_rounding
 
 FARTHEST_LEVEL = 4.0  # multiple of the range of values; a limit farther away is only named at the edge of the axes
@@ -180,7 +180,8 @@ def _draw_line(axes: Axes, line: Line) -> None:
     """Draw a curve. A point whose neighbours have no value is drawn as a dot, because no line leads to this point."""
     finite = np.isfinite(line.y)
     alone = finite & ~np.append(False, finite[:-1]) & ~np.append(finite[1:], False)
-    style: Style = {"color": line.hue, "linestyle": DASHES[line.role]}
+    dashes = STROKES[line.stroke % len(STROKES)] if line.role is Role.RESULT else DASHES[line.role]
+    style: Style = {"color": line.hue, "linestyle": dashes}
     if line.named and finite.any():
         style["label"] = fill(line.title, NAME_LENGTH)
     if alone.any():
