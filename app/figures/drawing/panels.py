@@ -424,7 +424,7 @@ def place_texts(axes: Axes, panel: Panel) -> None:
             box = size.translated(*place)
             outside = max(room.x0 - box.x0, box.x1 - room.x1, 0.0) + max(room.y0 - box.y0, box.y1 - room.y1, 0.0)
             near = box.padded(CLEAR * point)
-            hidden = sum(_hidden(curve, box) for curve in curves if curve.intersects_bbox(near, filled=False))
+            hidden = sum(_hidden(curve, box, near) for curve in curves if curve.intersects_bbox(near, filled=False))
             costs[place] = hidden + 10.0 * sum(box.overlaps(other) for other in taken) + outside + distance
         best = min(costs, key=costs.__getitem__)
         text.set_position((best[0] / point, best[1] / point))
@@ -446,16 +446,15 @@ def _lead(axes: Axes, text: Annotation, size: BboxBase, place: tuple[float, floa
         axes.annotate("", text.xy, near, text.xycoords, "offset points", arrowprops=style, annotation_clip=False)
 
 
-def _hidden(curve: Path, box: BboxBase) -> float:
+def _hidden(curve: Path, box: BboxBase, near: BboxBase) -> float:
     """Return the cost of a text whose box lies over a curve or close to a curve.
 
-    The longer the hidden part of the curve, the higher the cost.
+    The longer the part of the curve that lies in the box `near` around the text, the higher the cost.
     """
-    if not curve.intersects_bbox(box, filled=False):
-        return CLOSE
     x, y = np.asarray(curve.vertices).T
-    inside = x[(x > box.x0) & (x < box.x1) & (y > box.y0) & (y < box.y1)]
-    return 1.0 + 2.0 * float(np.ptp(inside)) / box.width if inside.size else 1.0
+    inside = x[(x > near.x0) & (x < near.x1) & (y > near.y0) & (y < near.y1)]
+    length = float(np.ptp(inside)) if inside.size else 0.0
+    return (1.0 if curve.intersects_bbox(box, filled=False) else CLOSE) + 2.0 * length / near.width
 
 
 def _places(kind: str, size: BboxBase, room: BboxBase, point: float) -> Iterator[tuple[tuple[float, float], float]]:

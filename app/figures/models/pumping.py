@@ -200,7 +200,7 @@ def peak_pressure(inputs: PumpingInputs, result: PumpingResult) -> Figure:
         y=axis(FaceProfile, "peak_pressure_ratio", "largest pressure over ambient pressure"),
         lines=lines,
         marks=marks,
-        levels=[Level(critical, f"clearances sonic from {number(critical)}", limit=True), Level(1.0, "ambient")],
+        levels=[Level(critical, f"sonic from {number(critical)}", limit=True), Level(1.0, "ambient")],
         spans=_grooves(inputs),
     )
     choked = [gear for gear, space in spaces(result) if space.radial_choked]
