@@ -122,7 +122,7 @@ def _draw_legend(axes: Axes, panel: Panel, *, narrow: bool) -> None:
 
 def legend_lines(panel: Panel) -> int:
     """Return the number of lines of the legend above a narrow panel."""
-    fills = [part.title for part in (*panel.ribbons, *panel.shapes)]
+    fills = [*(ribbon.title for ribbon in panel.ribbons), *(shape.title for shape in panel.shapes)]
     lines = [*(line.title for line in panel.lines if line.named), *fills]
     bars = [bars.title for bars in panel.bars] if len(panel.bars) > 1 else []
     names = dict.fromkeys([*lines, *bars, *(part.name for row in panel.rows for part in row.parts)])
@@ -429,24 +429,27 @@ def place_texts(axes: Axes, panel: Panel) -> None:
         best = min(costs, key=costs.__getitem__)
         text.set_position((best[0] / point, best[1] / point))
         if isinstance(text, Annotation) and text.get_gid() in SIDES:
-            _lead(axes, text, size, best, point)
+            curves += _lead(axes, text, size, best, point)
         taken.append(size.translated(*best).padded(2.0 * point))  # leaves space between the patches of two texts
 
 
-def _lead(axes: Axes, text: Annotation, size: BboxBase, place: tuple[float, float], point: float) -> None:
-    """Draw a thin line from a point to its text if the text is far from the point.
+def _lead(axes: Axes, text: Annotation, size: BboxBase, place: tuple[float, float], point: float) -> list[Path]:
+    """Draw a thin line from a point to its text if the text is far from the point. Return the lines that are drawn.
 
     `place` is the position of the text in pixels, relative to the point. `point` is the size of a typographic point in
     pixels.
     """
     half = size.width / 2, size.height / 2
-    near = [copysign(max(abs(off) - reach, 0.0), off) / point for off, reach in zip(place, half, strict=True)]
-    if hypot(*near) > FAR:
-        style: Style = {"arrowstyle": "-", "color": text.get_color(), "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 3.5}
-        axes.annotate("", text.xy, near, text.xycoords, "offset points", arrowprops=style, annotation_clip=False)
+    x, y = (copysign(max(abs(off) - reach, 0.0), off) / point for off, reach in zip(place, half, strict=True))
+    if hypot(x, y) <= FAR:
+        return []
+    style: Style = {"arrowstyle": "-", "color": text.get_color(), "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 3.5}
+    axes.annotate("", text.xy, (x, y), "data", "offset points", arrowprops=style, annotation_clip=False)
+    start = axes.transData.transform(text.xy)
+    return [Path([start, start + np.array([x, y]) * point])]
 
 
-def _hidden(curve: Path, box: BboxBase, near: BboxBase) -> float:
+def _hidden(curve: Path, box: Bbox, near: Bbox) -> float:
     """Return the cost of a text whose box lies over a curve or close to a curve.
 
     The longer the part of the curve that lies in the box `near` around the text, the higher the cost.
