@@ -32,7 +32,7 @@ LEAST_REACH = 7  # typographic points between a text and its point or line
 FAR = 12  # typographic points; a thin line leads from a point to its text if they are farther apart
 # Typographic points between a text and a curve, for the edge of the text's patch and half the width of the curve; cost
 # of a text that is closer to a curve but not over the curve.
-CLEAR, CLOSE = 1.6, 0.5
+CLEAR, CLOSE = 1.6, 0.2
 INSET = 2.0  # typographic points between the text of an area and the edge of the area
 AWAY = 3  # largest additional distance between a horizontal line and its name, in heights of the name
 # Number of steps in which the name of a line can be moved along the line; length of a downward step, as a multiple of
