@@ -94,7 +94,8 @@ class Line:
     """Points over an abscissa, drawn as a curve, as bars or as the outline of a polygon.
 
     A line that is not `named` is left out of the legend, because the title of the ordinate already names the line. If
-    several polygons have the same title, the legend lists this title once.
+    several polygons have the same title, the legend lists this title once. Curves of results that have the same hue are
+    told apart by `stroke`, the number of their pattern of dashes; 0 is a solid curve.
     """
 
     title: str
@@ -103,6 +104,7 @@ class Line:
     hue: Hue = Hue.BLUE
     role: Role = Role.RESULT
     named: bool = True
+    stroke: int = 0
 
     def mark(self, index: int, text: str) -> Mark:
         """Return a mark at the point with this index, in the hue of the line."""
@@ -265,7 +267,9 @@ class Figure:
     def subtitle(self) -> str:
         """Text below the title: the number of points without a solution, the finding, and the source."""
         gaps = f"{self.unsolved} point{'s' * (self.unsolved > 1)} without solution" if self.unsolved else ""
-        return " · ".join(part for part in (gaps, self.finding, self.source.replace(" ", NO_BREAK)) if part)
+        finding = re.sub(r"(?<=\d) | (?==)|(?<==) ", NO_BREAK, self.finding)  # keeps numbers with their units
+        parts = (gaps, finding, self.source.replace(" ", NO_BREAK))
+        return f"{NO_BREAK}· ".join(part for part in parts if part)
 
 
 class NoFigure(Unprocessable):

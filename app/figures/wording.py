@@ -34,10 +34,9 @@ def number(value: float, unit: str | None = None, digits: int = 3) -> str:
         power = f"10{str(int(exponent)).translate(SUPERSCRIPTS)}"
         mantissa = f"{float(mantissa):g}"
         text = {"1": power, "-1": f"-{power}"}.get(mantissa, f"{mantissa}·{power}")
-    elif abs(value) < 10.0 ** (digits - 1):
-        text = f"{value:.{digits}g}"
     else:
-        text = f"{value:,.0f}".replace(",", " ") if abs(value) >= 1e4 else f"{value:.0f}"
+        text = f"{value:,.{digits}g}" if abs(value) < 10.0 ** (digits - 1) else f"{value:,.0f}"
+        text = text.replace(",", " " if abs(value) >= 1e4 else "")
     glue = "" if unit in {None, "", "°"} else " "
     return f"{text.replace('-', '−')}{glue}{unit or ''}"
 

@@ -86,6 +86,9 @@ def test_nothing_collides_in_the_figures_of_drawn_cases(calculation: Calculation
 def test_ticks_and_tables_have_one_format_of_numbers() -> None:
     for value in (1e5, 123456.0, 0.25, 1e-5, 3.2e7, -4.0):
         assert NUMBERS(value, 0) == number(value, digits=6)
+    for value, text in ((9999.0, "9999"), (10000.0, "10 000"), (21678.6, "21 679"), (-2e5, "−200 000")):
+        assert number(value) == text
+        assert NUMBERS(round(value), 0) == text
 
 
 def test_the_numbers_of_a_bar_with_an_interval_are_in_order() -> None:

@@ -13,13 +13,28 @@ import pytest
 from matplotlib import rcParams
 from matplotlib.backend_bases import RendererBase
 from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.text import Text
+from matplotlib.colors import to_hex
+from matplotlib.text import Annotation, Text
 from matplotlib.transforms import Bbox
 
 from app.calculations import BY_PATH
 from app.evaluate import evaluate
 from app.examples import Example, examples
-from app.figures.data import Axis, Figure, Hue, Level, Line, Map, Mark, NoFigure, Panel, Row, ThemeName, values
+from app.figures.data import (
+    Axis,
+    Figure,
+    Hue,
+    Level,
+    Line,
+    Map,
+    Mark,
+    NoFigure,
+    Panel,
+    Ribbon,
+    Row,
+    ThemeName,
+    values,
+)
 from app.figures.drawing.image import draw, laid_out, narrowed, places
 from app.figures.drawing.style import NARROW, themed, written
 from app.figures.studies import Influence, corners, influence
@@ -183,6 +198,68 @@ def test_rows_of_long_names_are_whole_and_in_the_hue_of_their_sign() -> None:
     assert [row.hue for row in panel.rows] == [Hue.BLUE, Hue.VERMILLION, Hue.BLUE, Hue.VERMILLION]
     dots = [Row("165, 135 µm", 1.62, Hue.VERMILLION), Row("135, 165 µm", 1.87)]
     assert not list(faults(corners(output, [Row(each.name, 1.62, dots=dots) for each in steps], 2.19)))
+
+
+def test_a_band_is_named_in_the_legend() -> None:
+    band = Ribbon("contact", values(X), LOW, HIGH)
+    panel = replace(PANEL, lines=PANEL.lines[:1], marks=(), ribbons=(band,))
+    for narrow in (False, True):
+        figure = Figure("a finding", (panel,), title="a band", narrow=narrow)
+        assert {"pinion", "contact"} <= {text for text, _ in boxes(figure)[0]}
+        assert not list(faults(figure))
+
+
+def test_result_curves_of_one_hue_differ_by_their_dashes() -> None:
+    lines = tuple(Line(f"bearing {each}", values(X), values(each + X), stroke=each) for each in range(4))
+    panel = Panel(x=PANEL.x, y=PANEL.y, lines=lines)
+    image = draw(Figure("", (panel,), title="bearings"), "svg").decode().lower()
+    with themed("light"):
+        hue = to_hex(Hue.BLUE)
+    styles = [style for style in re.findall(r'style="([^"]*)"', image) if f"stroke: {hue}" in style]
+    patterns = {"".join(re.findall(r"stroke-dasharray: [^;]*", style)) for style in styles}
+    assert len(patterns) == 4
+
+
+def leaders(panel: Panel) -> list[tuple[Annotation, float]]:
+    """Lines that lead to the texts of points, with their lengths [in]."""
+    with themed("light"):
+        _, (axes,) = laid_out(Figure("", (panel,), title="two peaks"))
+        annotations = [text for text in axes.texts if isinstance(text, Annotation) and text.arrow_patch is not None]
+        return [(text, float(np.hypot(*text.get_position())) / 72.0) for text in annotations]
+
+
+def test_a_line_leads_to_the_text_of_a_point_only_where_it_stands_far_from_the_point() -> None:
+    """The point lies among lines that leave no room beside it."""
+    assert not leaders(PANEL)
+    crowd = tuple(Line("a", values(X), values(level + 0.0 * X), Hue.GREY) for level in np.linspace(0.0, 2.4, 25))
+    found = leaders(replace(PANEL, lines=crowd, marks=(Mark(0.5, 1.2, "1.2"),), y=Axis("load", limits=(0.0, 4.0))))
+    assert len(found) == 1
+    ((text, length),) = found
+    assert text.xy == (0.5, 1.2)
+    assert length > 0.16
+
+
+def test_texts_are_placed_on_the_axes_that_are_drawn() -> None:
+    """Equal scales on both axes widen one of them."""
+    angle = np.linspace(0.0, 2.0 * np.pi, 73)
+    circle = Line("path", values(np.cos(angle)), values(np.sin(angle)))
+    panel = Panel(x=Axis("x", magnitude=False), y=Axis("y", magnitude=False), lines=(circle,), equal=True)
+    with themed("light"):
+        sheet, (axes,) = laid_out(Figure("", (panel,), title="orbit"))
+        before = axes.get_xlim(), axes.get_ylim()
+        sheet.draw_without_rendering()
+        assert (axes.get_xlim(), axes.get_ylim()) == before
+
+
+def test_numbers_of_a_finding_keep_their_units_at_a_line_break() -> None:
+    figure = Figure("from 4 to 12 000 N, K_Hβ = 1.2", (PANEL,), source="ISO 21771")
+    assert figure.subtitle.split(" ") == [
+        "from",
+        "4\u00a0to",
+        "12\u00a0000\u00a0N,",
+        "K_Hβ\u00a0=\u00a01.2\u00a0·",
+        "ISO\u00a021771",
+    ]
 
 
 ONES = values([1.0, 1.0, 1.0])

@@ -205,7 +205,7 @@ def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
     rows, columns = (1, len(heights)) if figure.beside else (len(heights), 1)
     ratios, share = None if figure.beside else heights, _shares_abscissa(figure)
     axes = list(sheet.subplots(rows, columns, squeeze=False, sharex=share, height_ratios=ratios).flat)
-    length = _letters(figure, BESIDE_LENGTH if figure.beside else LENGTH)
+    length = _letters(figure, BESIDE_LENGTH if columns > 1 else LENGTH)
     for panel_axes, panel in zip(axes, figure.panels, strict=True):
         draw_panel(panel_axes, panel, length, narrow=figure.narrow)
         panel_axes.xaxis.label.set_visible(panel_axes is axes[-1] or not share)
@@ -224,6 +224,7 @@ def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
         hspace=_gap(figure) * rows / sum(heights),
     )
     for panel_axes in axes:
+        panel_axes.apply_aspect()  # the texts are placed before the sheet is drawn
         _thin_ticks(panel_axes)
     return axes
 

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import replace
 from itertools import product
+from math import copysign, hypot
 from textwrap import fill
 from typing import Any
 
@@ -12,12 +13,12 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, Normalize, to_rgba
 from matplotlib.patches import Rectangle
 from matplotlib.path import Path
-from matplotlib.text import Text
+from matplotlib.text import Annotation, Text
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.transforms import Bbox, BboxBase, ScaledTranslation
 
 from app.figures.data import Line, Map, Panel, Role, Row, Scale, Values
-from app.figures.drawing.style import DASHES, LIMIT, TEXT, patch, written
+from app.figures.drawing.style import DASHES, LIMIT, STROKES, TEXT, patch, written
 from app.figures.wording import NOISE, number, without_rounding
 
 FARTHEST_LEVEL = 4.0  # multiple of the range of values; a limit farther away is only named at the edge of the axes
@@ -28,6 +29,11 @@ LINE = 1.3 / 72.0  # inches; height of a line of text per point of letter size
 NAME_BELOW = 36  # characters per line of the name below narrow axes
 ROW = 0.52  # height of a row's bar divided by the distance between rows
 LEAST_REACH = 7  # typographic points between a text and its point or line
+FAR = 12  # typographic points; a thin line leads from a point to its text if they are farther apart
+# Typographic points between a text and a curve, for the edge of the text's patch and half the width of the curve; cost
+# of a text that is closer to a curve but not over the curve.
+CLEAR, CLOSE = 1.6, 0.2
+INSET = 2.0  # typographic points between the text of an area and the edge of the area
 AWAY = 3  # largest additional distance between a horizontal line and its name, in heights of the name
 # Number of steps in which the name of a line can be moved along the line; length of a downward step, as a multiple of
 # the height of the name.
@@ -94,7 +100,9 @@ def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -
 
 def _draw_legend(axes: Axes, panel: Panel, *, narrow: bool) -> None:
     """Draw the legend beside the axes, or above the axes if the figure is narrow or the panel has a map."""
-    handles = {str(handle.get_label()): handle for handle in axes.get_legend_handles_labels()[0]}  # names may repeat
+    handles = dict[str, Any]()
+    for handle in axes.get_legend_handles_labels()[0]:  # names may repeat; a curve comes before its band
+        handles.setdefault(str(handle.get_label()), handle)
     if handles and narrow:  # above the name of the ordinate, because there is no room beside the axes
         above = axes.transAxes + ScaledTranslation(
             0.0, LINE * TEXT * (1 + bool(panel.title)), axes.figure.dpi_scale_trans
@@ -114,7 +122,8 @@ def _draw_legend(axes: Axes, panel: Panel, *, narrow: bool) -> None:
 
 def legend_lines(panel: Panel) -> int:
     """Return the number of lines of the legend above a narrow panel."""
-    lines = [*(line.title for line in panel.lines if line.named), *(shape.title for shape in panel.shapes)]
+    fills = [*(ribbon.title for ribbon in panel.ribbons), *(shape.title for shape in panel.shapes)]
+    lines = [*(line.title for line in panel.lines if line.named), *fills]
     bars = [bars.title for bars in panel.bars] if len(panel.bars) > 1 else []
     names = dict.fromkeys([*lines, *bars, *(part.name for row in panel.rows for part in row.parts)])
     rows = -(-len(names) // LEGEND_COLUMNS)
@@ -154,10 +163,16 @@ def _draw_fills(axes: Axes, panel: Panel) -> None:
         size = area.right - area.left, area.top - area.bottom
         axes.add_patch(Rectangle((area.left, area.bottom), *size, facecolor=to_rgba(area.hue, TINT), linewidth=0))
     for ribbon in panel.ribbons:
-        axes.fill_between(ribbon.x, ribbon.low, ribbon.high, facecolor=ribbon.hue, alpha=TINT, linewidth=0)
+        style: Style = {
+            "facecolor": ribbon.hue,
+            "alpha": TINT,
+            "linewidth": 0,
+            "label": fill(ribbon.title, NAME_LENGTH),
+        }
+        axes.fill_between(ribbon.x, ribbon.low, ribbon.high, **style)
         axes.plot(ribbon.x, np.column_stack([ribbon.low, ribbon.high]), color=ribbon.hue, linewidth=0.8)
     for shape in panel.shapes:
-        style: Style = {"facecolor": to_rgba(shape.hue, TINT), "edgecolor": shape.hue, "linewidth": 1.0}
+        style = {"facecolor": to_rgba(shape.hue, TINT), "edgecolor": shape.hue, "linewidth": 1.0}
         axes.fill(shape.x, shape.y, label=fill(shape.title, NAME_LENGTH), **style)
 
 
@@ -165,7 +180,8 @@ def _draw_line(axes: Axes, line: Line) -> None:
     """Draw a curve. A point whose neighbours have no value is drawn as a dot, because no line leads to this point."""
     finite = np.isfinite(line.y)
     alone = finite & ~np.append(False, finite[:-1]) & ~np.append(finite[1:], False)
-    style: Style = {"color": line.hue, "linestyle": DASHES[line.role]}
+    dashes = STROKES[line.stroke % len(STROKES)] if line.role is Role.RESULT else DASHES[line.role]
+    style: Style = {"color": line.hue, "linestyle": dashes}
     if line.named and finite.any():
         style["label"] = fill(line.title, NAME_LENGTH)
     if alone.any():
@@ -358,14 +374,20 @@ def _name(axes: Axes, text: str, xy: tuple[float, float], xycoords: Any = "data"
         axes.annotate(text, xy, (0, 0), xycoords, bbox=patch(), **style)
 
 
-def _keep_clear(axes: Axes, text: Text, room: Bbox, rings: list[Bbox]) -> None:
-    """Move the text of an area to another place in the area if the ring of a point covers the text."""
+def _keep_clear(axes: Axes, text: Text, room: Bbox, points: list[Bbox], rings: list[Bbox]) -> None:
+    """Move the text of an area to a place in the area that is clear of the points and of the texts of the points.
+
+    `points` holds the boxes around the points with their texts. If no place is clear of these boxes, the text is only
+    kept clear of the rings.
+    """
     box = text.get_window_extent()
-    free_x, free_y = (room.width - box.width) / 2, (room.height - box.height) / 2
-    for across, up in ((0, 0), (0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1)):
+    inset = INSET * axes.figure.dpi / 72.0
+    free_x, free_y = (max((of - own) / 2 - inset, 0.0) for of, own in zip(room.size, box.size, strict=True))
+    ways = (0, 0), (0, 1), (0, -1), (1, 0), (-1, 0), (1, 1), (-1, 1), (1, -1), (-1, -1)
+    for taken, (across, up) in product((points, rings), ways):
         middle = (room.x0 + room.x1) / 2 + across * free_x, (room.y0 + room.y1) / 2 + up * free_y
         moved = Bbox.from_bounds(middle[0] - box.width / 2, middle[1] - box.height / 2, box.width, box.height)
-        if not any(moved.overlaps(ring) for ring in rings):
+        if not any(moved.overlaps(other) for other in taken):
             x, y = axes.transData.inverted().transform(middle)
             text.set_position((float(x), float(y)))
             return
@@ -378,20 +400,22 @@ def place_texts(axes: Axes, panel: Panel) -> None:
     """
     points = (axes.transData.transform((mark.x, mark.y)) for mark in panel.marks)
     rings = [Bbox([point - RING, point + RING]) for point in points]
+    point = axes.figure.dpi / 72.0
+    heights = [1.3 * TEXT * point * len(mark.text.splitlines()) for mark in panel.marks]
+    named = [ring.padded(height) for ring, height in zip(rings, heights, strict=True)]
     for area in panel.areas:
         room = Bbox([(area.left, area.bottom), (area.right, area.top)]).transformed(axes.transData)
         middle = (area.left * area.right) ** 0.5, (area.bottom * area.top) ** 0.5  # the axes of areas are logarithmic
         text = axes.text(*middle, area.text, color=rcParams["axes.labelcolor"], ha="center", va="center")
         while (box := text.get_window_extent()).width > room.width or box.height > room.height:
             text.set_text(text.get_text().rpartition("\n")[0])
-        _keep_clear(axes, text, room, rings)
+        _keep_clear(axes, text, room, named, rings)
     taken: list[BboxBase] = [text.get_window_extent() for text in axes.texts if text.get_gid() not in MOVED]
     taken += [*rings, axes.yaxis.label.get_window_extent(), axes.title.get_window_extent()]
     shapes = [line for line in axes.lines if line.get_linestyle() != "None"]
     shapes += [bar for container in axes.containers for bar in container]
     curves = [shape.get_path().transformed(shape.get_transform()) for shape in shapes]
-    point = axes.figure.dpi / 72.0
-    for text in axes.texts:
+    for text in [*axes.texts]:
         if text.get_gid() not in MOVED:
             continue
         text.set(ha="center", va="center")
@@ -402,18 +426,41 @@ def place_texts(axes: Axes, panel: Panel) -> None:
         for place, distance in _places(str(text.get_gid()), size, room, point):
             box = size.translated(*place)
             outside = max(room.x0 - box.x0, box.x1 - room.x1, 0.0) + max(room.y0 - box.y0, box.y1 - room.y1, 0.0)
-            hidden = sum(_hidden(curve, box) for curve in curves if curve.intersects_bbox(box, filled=False))
+            near = box.padded(CLEAR * point)
+            hidden = sum(_hidden(curve, box, near) for curve in curves if curve.intersects_bbox(near, filled=False))
             costs[place] = hidden + 10.0 * sum(box.overlaps(other) for other in taken) + outside + distance
         best = min(costs, key=costs.__getitem__)
         text.set_position((best[0] / point, best[1] / point))
+        if isinstance(text, Annotation) and text.get_gid() in SIDES:
+            curves += _lead(axes, text, size, best, point)
         taken.append(size.translated(*best).padded(2.0 * point))  # leaves space between the patches of two texts
 
 
-def _hidden(curve: Path, box: BboxBase) -> float:
-    """Return the cost of a text whose box lies over a curve. The longer the hidden part, the higher the cost."""
+def _lead(axes: Axes, text: Annotation, size: BboxBase, place: tuple[float, float], point: float) -> list[Path]:
+    """Draw a thin line from a point to its text if the text is far from the point. Return the lines that are drawn.
+
+    `place` is the position of the text in pixels, relative to the point. `point` is the size of a typographic point in
+    pixels.
+    """
+    half = size.width / 2, size.height / 2
+    x, y = (copysign(max(abs(off) - reach, 0.0), off) / point for off, reach in zip(place, half, strict=True))
+    if hypot(x, y) <= FAR:
+        return []
+    style: Style = {"arrowstyle": "-", "color": text.get_color(), "linewidth": 0.8, "shrinkA": 0.0, "shrinkB": 3.5}
+    axes.annotate("", text.xy, (x, y), "data", "offset points", arrowprops=style, annotation_clip=False)
+    start = axes.transData.transform(text.xy)
+    return [Path([start, start + np.array([x, y]) * point])]
+
+
+def _hidden(curve: Path, box: Bbox, near: Bbox) -> float:
+    """Return the cost of a text whose box lies over a curve or close to a curve.
+
+    The longer the part of the curve that lies in the box `near` around the text, the higher the cost.
+    """
     x, y = np.asarray(curve.vertices).T
-    inside = x[(x > box.x0) & (x < box.x1) & (y > box.y0) & (y < box.y1)]
-    return 1.0 + 2.0 * float(np.ptp(inside)) / box.width if inside.size else 1.0
+    inside = x[(x > near.x0) & (x < near.x1) & (y > near.y0) & (y < near.y1)]
+    length = float(np.ptp(inside)) if inside.size else 0.0
+    return (1.0 if curve.intersects_bbox(box, filled=False) else CLOSE) + 2.0 * length / near.width
 
 
 def _places(kind: str, size: BboxBase, room: BboxBase, point: float) -> Iterator[tuple[tuple[float, float], float]]:

@@ -12,6 +12,7 @@ WIDTH, NARROW = 5.6, 3.9  # inches; width of a figure, and of a figure in a colu
 DPI = {"svg": 100, "png": 180, "pdf": 180}  # applies to maps inside the vector formats too
 TITLE, TEXT = 11.0, 8.5  # letter sizes in points; the style sheet sets the size of the texts at axes
 DASHES: dict[Role, Any] = {Role.RESULT: "solid", Role.REFERENCE: (0, (1.2, 1.8)), Role.VARIANT: (0, (4.5, 2.2))}
+STROKES: tuple[Any, ...] = ("solid", (0, (5, 1)), (0, (5, 1, 1, 1)), (0, (2, 1)))  # results that share a hue
 LIMIT = "C7"  # colour of limits
 
 

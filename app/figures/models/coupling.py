@@ -277,11 +277,12 @@ def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
         ]
     limit = Level(thrust.coaxial_limit, "coaxial limit", limit=True, vertical=True)
     forces = Panel(x=axis(thrust, "force", "thrust"), y=Axis("thrust"), rows=rows, levels=[limit])
+    y = axis(curves, "sliding_velocity", "sliding velocity along the tooth")
     motion = Panel(
         x=TOOTH,
-        y=axis(curves, "sliding_velocity", "velocity along the tooth"),
-        lines=[Line("sliding by tilt", curves.angle, curves.sliding_velocity, Hue.VERMILLION)],
-        levels=[Level(axial, f"axial velocity {number(axial * 1e3, 'mm/s')}")] if axial else [],
+        y=y,
+        lines=[Line(y.title, curves.angle, curves.sliding_velocity, Hue.VERMILLION, named=False)],
+        levels=[Level(axial, f"axial {number(axial * 1e3, 'mm/s')}")] if axial else [],
     )
     finding = "no limit without load or friction"
     if thrust.fraction_of_limit is not None:

@@ -9,7 +9,7 @@ from app.figures.data import Axis, Figure, Hue, Level, Line, Map, Mark, NoFigure
 from app.figures.declaration import Declaration, present
 from app.figures.models.load_distribution import face, section
 from app.figures.units import MM, RPM, axis, shown
-from app.figures.wording import UNCERTAIN, listed, number, percent, ratio
+from app.figures.wording import UNCERTAIN, listed, number, percent, ratio, without_rounding
 from solvers.pumping.inputs import ChokingInputs, Flow, PumpingInputs, PumpingSetup
 from solvers.pumping.results import ChokingCurves, ChokingSpeeds, FaceProfile, PumpingResult, SpacesResult
 from solvers.pumping.speed_scan import speed_scan
@@ -203,7 +203,7 @@ def peak_pressure(inputs: PumpingInputs, result: PumpingResult) -> Figure:
         y=axis(FaceProfile, "peak_pressure_ratio", "largest pressure over ambient pressure"),
         lines=lines,
         marks=marks,
-        levels=[Level(critical, f"clearances sonic from {number(critical)}", limit=True), Level(1.0, "ambient")],
+        levels=[Level(critical, f"sonic from {number(critical)}", limit=True), Level(1.0, "ambient")],
         spans=_grooves(inputs),
     )
     choked = [gear for gear, space in spaces(result) if space.radial_choked]
@@ -229,8 +229,8 @@ def lead_correction(inputs: PumpingInputs, result: PumpingResult) -> Figure:
     ]
     x = face(inputs.setup.gears.face_width)
     y = Axis("normal to the flank of the pinion", "µm", magnitude=False, symbol="C")
-    shape = f"slope {number(lead.slope, 'µm')}, crown {number(lead.crown, 'µm')}"
-    finding = f"growth ranges over {number(lead.range, 'µm')}; {shape}"
+    slope, crown = (number(without_rounding(part, lead.range), "µm") for part in (lead.slope, lead.crown))
+    finding = f"growth ranges over {number(lead.range, 'µm')}; slope {slope}, crown {crown}"
     return Figure(finding, [Panel(x=x, y=y, lines=lines, spans=_grooves(inputs))])
 
 

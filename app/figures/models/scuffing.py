@@ -284,7 +284,7 @@ def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
         message = "The friction along the path is computed only by the thermal EHL solution"
         raise NoFigure("closed_form", message, "model.lubrication")
     points, warned = _points(inputs, result), _warned(result.path)
-    levels = points if mean is None else [*points, Level(mean, f"mean of Blok's flash temperature {number(mean)}")]
+    levels = points if mean is None else [*points, Level(mean, f"Blok's mean {number(mean)}")]
 
     def panel(y: Axis, curve: str, hues: tuple[Hue, Hue]) -> Panel:
         lines = [

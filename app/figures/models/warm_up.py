@@ -27,8 +27,15 @@ def temperatures(_: WarmUpInputs, result: UnitWarmUp) -> Figure:
     """
     course = result.warm_up
     curves, time = course.curves, axis(WarmUpCurves, "time")
+    bearings = [name for name in course.nodes if name not in HUES]
     lines = [
-        Line(name.replace("_", " "), curves.time, curves.temperature[:, place], HUES.get(name, Hue.GREEN))
+        Line(
+            name.replace("_", " "),
+            curves.time,
+            curves.temperature[:, place],
+            HUES.get(name, Hue.GREEN),
+            stroke=bearings.index(name) if name in bearings else 0,
+        )
         for place, name in enumerate(course.nodes)
     ]
     difference = Line("pinion over wheel", curves.time, curves.difference, Hue.VERMILLION, named=False)
@@ -46,7 +53,7 @@ def temperatures(_: WarmUpInputs, result: UnitWarmUp) -> Figure:
 
 def alignment(_: WarmUpInputs, result: UnitWarmUp) -> Figure:
     """Draw the face load factor and the safety factor at five points in time of the warm-up."""
-    own, time = result.alignment, axis(AlignmentOverTime, "time")
+    own, time = result.alignment, axis(AlignmentOverTime, "time", "time")
     factor = Line("face load factor", own.time, own.face_load_factor, Hue.BLUE, named=False)
     factor_axis = axis(AlignmentOverTime, "face_load_factor", magnitude=False)
     finite = [place for place, value in enumerate(own.face_load_factor) if np.isfinite(value)]
