@@ -55,9 +55,8 @@ def test_the_table_says_what_the_study_says(name: str) -> None:
 def test_the_figure_shows_the_most_influential_first() -> None:
     lines, page = result_of(asked(COUPLING))
     alt = re.findall(r'alt="([^"]+)"', page)[0]
-    assert alt.startswith(
-        "What moves the thrust to be held most. 8186 N now; coefficient of friction, number of teeth and module first"
-    )
+    first = "coefficient of friction, number of teeth and module first"
+    assert alt.startswith(f"What moves the thrust to be held most. 8186\xa0N now; {first}")
     assert [line["path"] for line in lines[:3]] == ["friction.coefficient", "coupling.teeth", "coupling.module_mm"]
 
 
