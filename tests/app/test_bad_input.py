@@ -141,13 +141,18 @@ def kind_of(example: Example) -> tuple[str, frozenset[tuple[str, str]]]:
 
 KINDS = {kind_of(each): each for each in reversed(examples().values())}
 """The first example of each kind: the others differ from it in numbers only, of which every one is varied."""
+FULLEST = {kind[0]: each for kind, each in sorted(KINDS.items(), key=lambda item: len(item[0][1]))}
+"""The example of each endpoint with the most fields; here the fields that are left to defaults are varied too."""
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("example", KINDS.values(), ids=lambda each: each.name)
 def test_ends_of_every_range_are_answered(client: httpx.Client, example: Example) -> None:
     calculation = BY_PATH[example.endpoint]
+    given = {name for name, _ in pairs_of(example.request)}
     for path in number_fields(calculation.request):
+        if path not in given and example is not FULLEST[example.endpoint]:
+            continue
         for value in range_ends(calculation.request, path):
             request = changed(example.request, {**short_path(calculation), path: value, "detail": "summary"})
             response = send(client, calculation.path, request)
