@@ -91,6 +91,8 @@ def test_every_address_of_every_page_leads_somewhere(proxies: dict[str, str], na
         for path, address in seen.items():
             if path in FILES or ("?" in address and path.removesuffix("/vary") in slow):
                 continue  # takes files only; takes a minute
+            if name == "stripped" and "?" in address:
+                continue  # what a query asks for is the same behind both proxies, and was asked for behind the first
             status = client.get(address).status_code
             # An address of a form may stand alone, without the fields that it sends.
             assert status in ({200, 303} if "?" in address else {200, 303, 400, 422}), address
