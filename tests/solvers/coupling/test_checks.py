@@ -20,7 +20,7 @@ from tests.support.stored import stored
 CASES = dict(zip((check.__name__ for check in CHECKS), (40, 25, 10, 3, 4), strict=True))
 
 
-@pytest.mark.parametrize(("seed", "times"), [(2026, 1), pytest.param(1977, 40, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(("seed", "times"), [(2026, 1), pytest.param(1977, 15, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("check", CHECKS)
 def test_random_couplings(check: Callable[[Generator], None], seed: int, times: int) -> None:
     random = np.random.default_rng(seed)

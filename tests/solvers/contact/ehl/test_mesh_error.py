@@ -160,7 +160,7 @@ def test_what_a_spike_leaves_is_stated_rather_than_chased() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("rheology", ["ree_eyring", "newtonian"])
 def test_resolution_does_not_decide_over_many_contacts(rheology: str) -> None:
-    for inputs in random_contacts(replace(AS_GIVEN, rheology=rheology), 60, seed=22):
+    for inputs in random_contacts(replace(AS_GIVEN, rheology=rheology), 30, seed=22):
         check_doubled(inputs, ALONG)
         check_doubled(inputs, ACROSS)
 
