@@ -73,6 +73,7 @@ class StartUp:
             *(stage.name for stage in stages),
             stdin=DEVNULL,
             stdout=PIPE,
+            start_new_session=True,  # Ctrl-C ends the service only; Python would report a Ctrl-C during its own start
             env={**os.environ, "PYTHONPATH": os.pathsep.join(map(os.path.abspath, sys.path))},
         )
         try:
@@ -84,7 +85,7 @@ class StartUp:
                     other = asyncio.create_task(self._compile([BESIDE]))
                 if other is not None and {stage.name for stage in stages} - {BESIDE.name} <= {*self.warm}:
                     return await other
-            return await process.wait() in {0, 130}  # the exit status after Ctrl-C is 130
+            return await process.wait() == 0
         finally:
             if other is not None:
                 other.cancel()

@@ -22,6 +22,7 @@ from tests.support.server import (
     FAULTY,
     PATIENCE_S,
     ROOT,
+    command_line,
     descendants,
     faulty_server,
     free_port,
@@ -72,6 +73,10 @@ def test_cold_start_answers_coupling_first(tmp_path: Path) -> None:
         assert httpx.get(f"{address}/readyz", timeout=5).status_code == 503  # the rest is not warm yet
         wait_until(lambda: count_progress(address) > 0)
         family = descendants(process.pid)
+        compiling = [pid for pid in family if " compile " in command_line(pid)]
+        assert compiling
+        # Ctrl-C in the terminal does not reach them: Python writes a traceback if that interrupts its own start.
+        assert os.getpgid(process.pid) not in map(os.getpgid, compiling)
         process.send_signal(signal.SIGINT)
         process.wait(PATIENCE_S)
         wait_until_gone(family)
