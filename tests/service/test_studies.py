@@ -49,7 +49,8 @@ NUMBERS = [
 
 @pytest.fixture(scope="module")
 def service() -> Iterator[Server]:
-    with faulty_server(workers=2, queue=2, deadline_s=4, study_points=30_000) as server:
+    # The deadline is far longer than the start of a worker, for which a call may have to wait.
+    with faulty_server(workers=2, queue=2, deadline_s=20, study_points=30_000) as server:
         yield server
 
 
