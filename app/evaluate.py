@@ -37,25 +37,11 @@ def content_of(body: bytes) -> Any:
         nonlocal objects
         objects += 1
         if objects > MOST_OBJECTS:
-            raise InvalidBody(
-                [
-                    Fault(
-                        "",
-                        "too_many_objects",
-                        f"the body contains too many objects; at most {MOST_OBJECTS} are allowed",
-                    )
-                ]
-            )
+            message = f"the body contains too many objects; at most {MOST_OBJECTS} are allowed"
+            raise InvalidBody([Fault("", "too_many_objects", message)])
         if len(pairs) > MOST_MEMBERS:
-            raise InvalidBody(
-                [
-                    Fault(
-                        "",
-                        "too_many_fields",
-                        f"an object of the body contains too many fields; at most {MOST_MEMBERS} are allowed",
-                    )
-                ]
-            )
+            message = f"an object of the body contains too many fields; at most {MOST_MEMBERS} are allowed"
+            raise InvalidBody([Fault("", "too_many_fields", message)])
         content = dict(pairs)
         if len(content) < len(pairs):
             name, _ = Counter(name for name, _ in pairs).most_common(1)[0]
