@@ -54,8 +54,7 @@ def create_app() -> FastAPI:
                 logger.warning(line)
             logger.info("tribodrive: %d workers", limits.workers)
             async with app.state.studies.open(), asyncio.TaskGroup() as group:
-                works = [pool.keep_workers(), start_up.run(), *(pool.serve() for _ in range(limits.workers))]
-                tasks = [group.create_task(work) for work in works]
+                tasks = [group.create_task(work) for work in (pool.run(), start_up.run())]
                 try:
                     yield
                 finally:

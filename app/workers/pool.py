@@ -14,6 +14,7 @@ time the worker of the call is killed and replaced.
 import asyncio
 import logging
 import pickle
+import time
 from collections import Counter
 from collections.abc import Callable, Hashable, Sequence
 from contextlib import suppress
@@ -58,16 +59,21 @@ class Pool:
 
     def __init__(self, settings: Settings, modules: Sequence[str]) -> None:
         self.size = settings.workers
-        self.alive = 0  # workers that can calculate
+        self._is_usable = [False] * settings.workers  # for each worker, whether it can calculate
         self._settings = settings
         self._preparation = (settings.worker_memory_mb * MEBIBYTE, tuple(modules))
         self._limiter = CapacityLimiter(settings.workers)
         self._running: list[Job] = []
         self._waiting: list[Job] = []
-        self._arrival, self._trouble = asyncio.Event(), asyncio.Event()
+        self._arrival, self._is_open = asyncio.Event(), asyncio.Event()
         self._begun: LRUCache[Hashable, float] = LRUCache(1000)  # time [s] when the last call of each owner began
         WAITING.set_function(lambda: sum(job.is_single for job in self._waiting))
         CALCULATIONS.set_function(lambda: sum(job.is_single for job in (*self._running, *self._waiting)))
+
+    @property
+    def alive(self) -> int:
+        """Number of workers that can calculate."""
+        return sum(self._is_usable)
 
     async def calculate(self, http: Request, function: Callable[..., Any], *arguments: Any) -> Any:
         """Run a call in a worker and return its result.
@@ -114,21 +120,28 @@ class Pool:
         elif job in self._running and job.timeout is not None and not job.timeout.expired():
             job.timeout.reschedule(asyncio.get_running_loop().time() + GRACE_S)
 
-    async def keep_workers(self) -> None:
-        """Start the workers, and replace workers that are lost.
+    async def run(self) -> None:
+        """Keep all workers running, without end. The first worker starts alone, so that it is ready soon."""
+        async with asyncio.TaskGroup() as group:
+            group.create_task(self._serve(0))
+            await self._is_open.wait()
+            for number in range(1, self.size):
+                group.create_task(self._serve(number))
 
-        The first worker starts alone, so that it is ready soon. Idle workers are called again and again, because AnyIO
-        ends workers that are not used.
-        """
-        count = 1
+    async def _serve(self, number: int) -> None:
+        """Start a worker, give it calls one after another, check it while it is idle, and replace it if it is lost."""
         while True:
-            running = len(self._running)
-            self._trouble.clear()
-            self.alive = running + sum(await asyncio.gather(*(self._is_prepared() for _ in range(count))))
-            with suppress(TimeoutError):
-                async with asyncio.timeout(IDLE_S if self.alive >= self.size else PAUSE_S):
-                    await self._trouble.wait()
-            count = self.size - len(self._running)
+            self._is_usable[number] = await self._is_prepared()
+            if not self._is_usable[number]:
+                await asyncio.sleep(PAUSE_S)
+                continue
+            self._is_open.set()
+            while self._is_usable[number] and (job := await self._next_job()):
+                self._running.append(job)
+                try:
+                    self._is_usable[number] = await self._carry_out(job)
+                finally:
+                    self._running.remove(job)
 
     async def _is_prepared(self) -> bool:
         with suppress(BrokenWorkerProcess, OSError):
@@ -137,24 +150,23 @@ class Pool:
             return True
         return False
 
-    async def serve(self) -> None:
-        """Give calls to a worker one after another, without end. This function runs once for each worker."""
-        while True:
-            while not (waiting := [job for job in self._waiting if not job.outcome.done()]):
-                self._arrival.clear()
-                await self._arrival.wait()
+    async def _next_job(self) -> Job | None:
+        """Wait for a call and choose it. Return None if no call arrives until the idle workers are to be checked.
+
+        All idle workers are checked at the same time. Otherwise AnyIO would give all checks to the same worker, and end
+        the others because they are not used.
+        """
+        with suppress(TimeoutError):
+            async with asyncio.timeout(IDLE_S - time.monotonic() % IDLE_S):
+                while not (waiting := [job for job in self._waiting if not job.outcome.done()]):
+                    self._arrival.clear()
+                    await self._arrival.wait()
             running = Counter(job.owner for job in self._running)
             job = min(waiting, key=lambda job: (running[job.owner], self._begun.get(job.owner, 0.0)))
-            self._begun[job.owner] = asyncio.get_running_loop().time()
+            self._begun[job.owner] = time.monotonic()
             self._waiting.remove(job)
-            self._running.append(job)
-            try:
-                is_usable = await self._carry_out(job)
-            finally:
-                self._running.remove(job)
-            if not is_usable:
-                self._trouble.set()
-                await self._is_prepared()  # at once, because AnyIO loses a worker whose start is cancelled
+            return job
+        return None
 
     async def _carry_out(self, job: Job) -> bool:
         """Run a call and set the result or the exception of its future. Return True if the worker can be used again."""

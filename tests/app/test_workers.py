@@ -62,14 +62,13 @@ def with_pool(
 
     async def run() -> None:
         pool = Pool(Settings(workers=workers, queue=4), ())
-        tasks = [asyncio.create_task(each) for each in (pool.keep_workers(), *(pool.serve() for _ in range(workers)))]
+        serving = asyncio.create_task(pool.run())
         await settled()
         try:
             await check(pool, processes)
         finally:
-            for task in tasks:
-                task.cancel()
-            await asyncio.gather(*tasks, return_exceptions=True)
+            serving.cancel()
+            await asyncio.gather(serving, return_exceptions=True)
 
     asyncio.run(run())
 
@@ -149,6 +148,10 @@ def test_a_lost_worker_costs_its_own_call_and_another_one_starts(monkeypatch: py
     with_pool(monkeypatch, check)
 
 
+async def succeed() -> None:
+    pass
+
+
 async def hang() -> None:
     await asyncio.sleep(3600)
 
@@ -176,6 +179,24 @@ def test_a_worker_that_does_not_start_is_started_again(
     monkeypatch.setattr(pools, "START_S", 0.1)
     monkeypatch.setattr(pools, "PAUSE_S", 0.01)
     with_pool(monkeypatch, check, faults=(fault,))
+
+
+def test_a_call_does_not_wait_for_the_start_of_a_worker_if_another_worker_is_free(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The deadline of a study's call begins when a worker takes the call, so it must not pass during a start."""
+
+    async def check(pool: Pool, processes: Processes) -> None:
+        assert pool.alive == 1
+        first, second = ask(pool, "study", "0", is_single=False), ask(pool, "study", "1", is_single=False)
+        await settled()
+        assert processes.order == ["0"]
+        await processes.answer("0")
+        assert processes.order == ["0", "1"]
+        await processes.answer("1")
+        assert (first.result(), second.result()) == ("0", "1")
+
+    with_pool(monkeypatch, check, faults=(succeed, hang))
 
 
 def test_idle_workers_are_called_all_at_the_same_time(monkeypatch: pytest.MonkeyPatch) -> None:
