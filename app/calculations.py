@@ -122,6 +122,9 @@ LINE_CONTACT = Stage(
 )
 DRIVE_TRAIN = Stage("drive train", 13, ("starter-turbo-gear-drive-train",))
 
+STAGES = (COUPLING, SLEEVE, LOADS, PUMPING, DRIVE_TRAIN, LINE_CONTACT)
+"""The stages in the order in which their endpoints open."""
+
 CALCULATIONS = (
     Calculation(
         path="/v1/coupling",

@@ -95,7 +95,8 @@ def compile_kernels(names: Sequence[str]) -> None:
     """
     from numba.core import event  # noqa: PLC0415
 
-    from app.workers.stages import STAGES, warm  # noqa: PLC0415
+    from app.calculations import STAGES  # noqa: PLC0415
+    from app.evaluate import warm  # noqa: PLC0415
     from solvers.kernel_cache import FOLDER  # noqa: PLC0415
 
     gc.enable()

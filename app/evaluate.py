@@ -9,8 +9,9 @@ from operator import attrgetter
 from typing import Any
 
 from app import figures
-from app.calculations import BY_PATH, Calculation
+from app.calculations import BY_PATH, Calculation, Stage
 from app.errors import Fault, InvalidBody, Unprocessable, Unreadable, printable
+from app.examples import examples
 from app.figures.data import ThemeName
 from app.figures.declaration import Declaration
 from app.schema.fields import field_path
@@ -124,6 +125,16 @@ def figure_of(name: str, image_format: figures.Format, theme: ThemeName, path: s
     """
     declaration = next(figure for figure in BY_PATH[path].figures if figure.name == name)
     return draw_figure(BY_PATH[path], declaration, request, image_format, theme)
+
+
+def warm(stage: Stage) -> None:
+    """Answer the examples of a stage, so that this process compiles or loads all kernels of the stage.
+
+    If there is a folder for kernels, kernels that had to be compiled are stored there.
+    """
+    for name in stage.examples:
+        example = examples()[name]
+        answer_of(example.endpoint, BY_PATH[example.endpoint].request.model_validate(example.request))
 
 
 def json_answer(calculation: Calculation, request: Request) -> bytes:

@@ -11,10 +11,11 @@ from typing import Any
 
 from distributed import Client, KilledWorker
 
+from app.calculations import STAGES
 from app.errors import SchedulerUnavailable, WorkerLost
+from app.evaluate import warm
 from app.sources import SOURCES
 from app.studies.runner import OtherSources, PoolLost
-from app.workers.stages import STAGES, warm
 
 CONNECT_S = 10.0  # longest time of one call to the scheduler
 ANSWER_S = 15.0  # longest time of the first two calls together: one call connects, the other lists the workers

@@ -2,6 +2,5 @@
 
 pool      the queue of calls, and the workers, which are replaced if they are lost or hang
 worker    the functions that run in a worker: the preparation of the worker, and the calls
-stages    the examples that compile all kernels, in the order in which endpoints open
 start_up  the compilation of the stages in other processes while the workers answer
 """

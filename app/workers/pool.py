@@ -3,9 +3,8 @@
 The owner of a call is a client or a study. A free worker gets a call of the owner with the fewest running calls. If
 several owners have the same number of running calls, the owner whose last call began longest ago is next.
 
-If the queue is full, a call is rejected. To choose this call, the waiting and running calls of each client are counted,
-including the new call. The client with the most calls loses the newest of its waiting calls, which may be the new call.
-Calls of studies are neither counted nor rejected.
+If the queue is full, a call is rejected, unless another client has at least two waiting and running calls more than the
+client of this call. Calls of studies are neither counted nor rejected.
 
 If nobody waits for the result of a running call any more, the call may run for another `GRACE_S` seconds. After this
 time the worker of the call is killed and replaced.
@@ -95,19 +94,11 @@ class Pool:
         return job.outcome
 
     def _admit(self, owner: Hashable) -> None:
-        """Make room for a new call if all places are taken.
-
-        Reject a waiting call, or raise QueueFull for the new call.
-        """
-        queue = [job for job in self._waiting if job.is_single and not job.outcome.done()]
-        places = Counter(job.owner for job in (*self._running, *queue) if job.is_single)
-        if places.total() < self.size + self._settings.queue:
-            return
-        REFUSED.inc()
-        refused = max(reversed(queue), key=lambda job: places[job.owner], default=None)
-        if refused is None or places[refused.owner] <= places[owner] + 1:
+        """Raise QueueFull if all places are taken, and no other client has clearly more of them than this owner."""
+        places = Counter(job.owner for job in (*self._running, *self._waiting) if job.is_single)
+        if places.total() >= self.size + self._settings.queue and max(places.values()) <= places[owner] + 1:
+            REFUSED.inc()
             raise QueueFull
-        refused.outcome.set_exception(QueueFull())
 
     def _let_go(self, job: Job) -> None:
         """Remove a waiting call from the queue, or limit the time of a running call to another `GRACE_S` seconds.

@@ -10,10 +10,15 @@ from collections.abc import Sequence
 from contextlib import suppress
 from shutil import rmtree
 
-from app.calculations import BY_PATH, Stage
+from app.calculations import BY_PATH, LINE_CONTACT, STAGES, Stage
 from app.errors import WarmingUp
-from app.workers.stages import BESIDE, STAGES
 from solvers.kernel_cache import FOLDER
+
+BESIDE = LINE_CONTACT
+"""The stage that is compiled beside the others, because it takes as long as all of them together.
+
+Of their kernels it needs only those of the load distribution, near the end of its own compilation.
+"""
 
 logger = logging.getLogger("tribodrive")
 
@@ -30,21 +35,10 @@ class StartUp:
         return [name for name, percent in self._percent.items() if percent == 100]
 
     def require(self, *endpoints: str) -> None:
-        """Raise WarmingUp if the stage of one of the endpoints is not ready.
-
-        If no endpoint is given, raise WarmingUp if none of the stages is ready.
-        """
-        if not {BY_PATH[endpoint].stage.name for endpoint in endpoints} <= {*self.warm} or not self.warm:
-            raise self._warming_up()
-
-    def require_all(self) -> None:
-        """Raise WarmingUp if a stage is not ready."""
-        if len(self.warm) < len(self._percent):
-            raise self._warming_up()
-
-    def _warming_up(self) -> WarmingUp:
-        report = ", ".join(f"{name} {percent} %" for name, percent in self._percent.items())
-        return WarmingUp(f"Kernels are being compiled, once after installation: {report}")
+        """Raise WarmingUp if the stage of one of the endpoints is not ready."""
+        if not {BY_PATH[endpoint].stage.name for endpoint in endpoints} <= {*self.warm}:
+            report = ", ".join(f"{name} {percent} %" for name, percent in self._percent.items())
+            raise WarmingUp(f"Kernels are being compiled, once after installation: {report}")
 
     async def run(self) -> None:
         """Compile all stages, then open all endpoints.

@@ -15,18 +15,13 @@ from collections.abc import Sequence
 from contextlib import suppress
 from functools import lru_cache
 from importlib import import_module
+from logging.handlers import BufferingHandler
 from typing import Any
 
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 
-_lines: list[str] = []
-
-
-class _Notes(logging.Handler):
-    """Handler that keeps log lines for the answer of the call, because nobody reads a worker's standard error."""
-
-    def emit(self, record: logging.LogRecord) -> None:
-        _lines.append(self.format(record))
+_notes = BufferingHandler(1000)
+"""Handler that keeps log records for the answer of the call, because nobody reads a worker's standard error."""
 
 
 @lru_cache(maxsize=1)
@@ -44,7 +39,7 @@ def prepare(memory_bytes: int, modules: Sequence[str]) -> None:
     gc.freeze()
     gc.enable()
     logging.captureWarnings(capture=True)
-    logging.root.addHandler(_Notes())
+    logging.root.addHandler(_notes)
     with suppress(ImportError, OSError, ValueError):
         import resource  # noqa: PLC0415  not on all platforms
 
@@ -64,10 +59,10 @@ def perform(memory_bytes: int, modules: Sequence[str], call: bytes) -> tuple[Any
     Raises the error of the function, or RuntimeError with the traceback if this error cannot be pickled.
     """
     prepare(memory_bytes, modules)
-    _lines.clear()
+    _notes.flush()
     try:
         function, arguments = pickle.loads(call)  # noqa: S301  from the service itself
-        return function(*arguments), _lines
+        return function(*arguments), [_notes.format(record) for record in _notes.buffer]
     except Exception as error:
         text = traceback.format_exc()
         error.add_note(f"In the worker process:\n{text}")

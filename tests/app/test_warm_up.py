@@ -5,15 +5,15 @@ import sys
 
 import pytest
 
-from app.calculations import BY_PATH, CALCULATIONS, COUPLING, LINE_CONTACT
+from app.calculations import BY_PATH, CALCULATIONS, COUPLING, LINE_CONTACT, STAGES
 from app.examples import examples
-from app.workers.stages import STAGES
 
 COUNT_COLD = """
 import gc
 from numba.extending import is_jitted
 from app.examples import examples
-from app.workers.stages import STAGES, warm
+from app.calculations import STAGES
+from app.evaluate import warm
 from app.calculations import BY_PATH
 from app.evaluate import answer_of
 

@@ -80,15 +80,11 @@ def contents(http: Request) -> Response:
     return html(contents_page(root_of(http)))
 
 
-@router.get("/manual/functions")
-def functions(http: Request) -> Response:
-    """Show the functions that implement the equations."""
-    return html(functions_page(root_of(http)))
-
-
 @router.get("/manual/{name}")
 def chapter(http: Request, name: str) -> Response:
-    """Show a chapter of the manual."""
+    """Show a chapter of the manual, or the functions that implement the equations."""
+    if name == "functions":
+        return html(functions_page(root_of(http)))
     if name not in NAMES:
         raise HTTPException(404, f"The manual has no such chapter. The chapters are {', '.join(NAMES)}, functions")
     return html(chapter_page(root_of(http), name))

@@ -17,10 +17,6 @@ from app.rexs.document import File
 DOCUMENTED_TYPES = ("application/xml", "application/json", "application/zip")
 TYPES = (*DOCUMENTED_TYPES, "text/xml", "application/x-zip-compressed", "application/octet-stream")
 FORM = "multipart/form-data"
-GONE = (
-    "The service keeps the page of a gear unit in memory for a short time only. This page no longer exists; open the "
-    "file again."
-)
 FILE = {"type": "string", "format": "binary"}
 
 
@@ -118,13 +114,11 @@ async def open_unit(http: Request) -> Response:
 
 @pages.get("/rexs/{name}", response_class=HTMLResponse)
 async def show_unit(http: Request, name: str) -> Response:
-    """Show the page of a unit as long as the page is kept.
-
-    The page has the stages, the findings, and links to the calculations.
-    """
+    """Show the stages, the findings and the links of a unit, as long as the page of the unit is kept."""
     shown = http.app.state.answers.get(_key(root_of(http), name))
     if shown is None:
-        return problem_page(http, 410, "The file has to be opened again", GONE)
+        reason = "The service keeps the page of a gear unit for a short time only. Open the file again."
+        return problem_page(http, 410, "The file has to be opened again", reason)
     return html(shown)
 
 

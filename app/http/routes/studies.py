@@ -74,7 +74,6 @@ async def streamed(
 
 async def started(http: Request, kind: type[Study], body: BaseModel, written_as: Format = "ndjson") -> Response:
     """Check a study in a worker, then return the response with the stream of its lines."""
-    http.app.state.start_up.require()
     study: Study = await planned(http, partial(kind, body), getattr(http.app.state.settings, kind.most))
     http.app.state.start_up.require(study.question.endpoint)
     encode = study.encoder(written_as)

@@ -49,10 +49,8 @@ def _add(calculation: Calculation, own: type[StudyPage]) -> None:
 
     async def lines(http: Request, media: str) -> Response:
         if media not in own.files:
-            raise HTTPException(
-                404,
-                f"This file does not exist. The files are {', '.join(f'{own.link.name}.{each}' for each in own.files)}",
-            )
+            names = ", ".join(f"{own.link.name}.{suffix}" for suffix in own.files)
+            raise HTTPException(404, f"This file does not exist. The files are {names}")
         study = (await checked(http)).study
         encode = study.encoder(media)
         return await streamed(http, study, lambda found, _: encoded(found, encode), LINE_TYPES[media], policy)
@@ -88,9 +86,8 @@ async def _page(http: Request, calculation: Calculation, own: type[StudyPage], p
     if opened.page.study is None:
         return pages.html(opened.head + opened.tail, opened.status)
     headers = {"Content-Security-Policy": pages.PAGE_POLICY}
-    return await streamed(
-        http, opened.page.study, partial(pieces, http.app.state.studies.own, opened), pages.HTML, headers, PROGRESS_S
-    )
+    parts = partial(pieces, http.app.state.studies.own, opened)
+    return await streamed(http, opened.page.study, parts, pages.HTML, headers, PROGRESS_S)
 
 
 async def _planned(http: Request, own: type[StudyPage], asked: Asked, view: Callable[..., Any]) -> Any:
