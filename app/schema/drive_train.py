@@ -110,8 +110,8 @@ class CylindricalSection(Section, of=si.ShaftSection):
             "outer_diameter",
             text="under the teeth the diameter that carries torsion",
             default_text="under the teeth d - m_n h_fP*; required elsewhere",
-            assumed="under the teeth, d - m_n h_fP* is used, which is about the root diameter plus a third of the "
-            "tooth depth; with the reference diameter, the computed torsion would be too small",
+            assumed="under the teeth, d - m_n h_fP* is used, which is the mean of root diameter and reference diameter "
+            "if there is no profile shift; with the reference diameter, the computed torsion would be too small",
         ),
     ] = None
 
