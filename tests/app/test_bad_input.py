@@ -108,10 +108,17 @@ def test_the_input_is_not_echoed(client: httpx.Client) -> None:
     assert secret not in response.text
 
 
+def own_fields(calculation: Calculation) -> list[str]:
+    """The fields to be varied: of a warm-up those only that the same unit at rest does not have."""
+    unit = BY_PATH["/v1/drive-train"]
+    others = number_fields(unit.request) if calculation.path.startswith(f"{unit.path}/") else []
+    return [path for path in number_fields(calculation.request) if path not in others]
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 def test_nothing_gives_500(client: httpx.Client, calculation: Calculation) -> None:
-    for path in number_fields(calculation.request):
+    for path in own_fields(calculation):
         for value in HOSTILE:
             request = changed(example_of(calculation), {**short_path(calculation), path: value})
             response = send(client, calculation.path, request)
@@ -150,7 +157,7 @@ FULLEST = {kind[0]: each for kind, each in sorted(KINDS.items(), key=lambda item
 def test_ends_of_every_range_are_answered(client: httpx.Client, example: Example) -> None:
     calculation = BY_PATH[example.endpoint]
     given = {name for name, _ in pairs_of(example.request)}
-    for path in number_fields(calculation.request):
+    for path in own_fields(calculation):
         if path not in given and example is not FULLEST[example.endpoint]:
             continue
         for value in range_ends(calculation.request, path):

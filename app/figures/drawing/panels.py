@@ -34,7 +34,7 @@ FAR = 12  # typographic points; a thin line leads from a point to its text if th
 # of a text that is closer to a curve but not over the curve.
 CLEAR, CLOSE = 1.6, 0.2
 INSET = 2.0  # typographic points between the text of an area and the edge of the area
-AWAY = 3  # largest additional distance between a horizontal line and its name, in heights of the name
+AWAY = 6  # largest additional distance between a horizontal line and its name, in half heights of the name
 # Number of steps in which the name of a line can be moved along the line; length of a downward step, as a multiple of
 # the height of the name.
 ALONG, DOWN = 8, 0.6
@@ -476,8 +476,8 @@ def _places(kind: str, size: BboxBase, room: BboxBase, point: float) -> Iterator
         free = max(room.width - size.width - 2 * gap, 0.0)
         for step, away, side in product(range(ALONG + 1), range(AWAY + 1), (1, -1)):
             left = gap + size.width / 2 + free * step / ALONG
-            off = gap + size.height / 2 + away * size.height
-            yield (-left, side * off), 0.05 * step + 0.02 * (side < 0) + 1.5 * away
+            off = gap + size.height / 2 + away * size.height / 2
+            yield (-left, side * off), 0.05 * step + 0.02 * (side < 0) + 0.75 * away
     elif kind == "column":
         for step, side in product(range(ALONG + 1), (0, 1, -1)):
             below = gap + size.height / 2 + DOWN * step * size.height
