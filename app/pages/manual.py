@@ -29,6 +29,7 @@ from app.manual.fields import COLUMNS, SECTIONS, entries
 from app.manual.results import place_of
 from app.pages.query import Pairs, link, pairs_of
 from app.pages.templating import example_link, model_of, page_path, rendered
+from app.pages.typesetting import symbol
 from app.schema.fields import Leaf, leaves
 
 _FUNCTION = re.compile(r"\\(?:arc)?(?:sin|cos|tan|ln|exp|sinh|cosh|tanh|operatorname\{\w+\})(?![a-z])(?:\^\{?\w+\}?)?")
@@ -58,7 +59,7 @@ def chapter_page(root: str, name: str) -> str:
         head = _html(chapter.text.partition("\n## ")[0], root)
         table = {"sections": SECTIONS, "columns": COLUMNS, "entries": entries()}
         return rendered("manual_fields.html", root, chapter=chapter, body=head, **table)
-    body = _html(chapter.text, root)
+    body = _html(chapter.text, root, name)
     lists: dict[str, Any] = {"headings": headings(chapter), "symbols": symbols_of(chapter)}
     return rendered("manual.html", root, chapter=chapter, body=body, following=following, **lists)
 
@@ -92,6 +93,21 @@ def method_of(chapter: Chapter) -> dict[str, Any]:
         "misprints": _plain(chapter.section("Misprints and how they were decided")),
         "limits": _plain(chapter.section("Limits of validity").partition("\n\n![")[0]),
     }
+
+
+@cache
+def _results_at() -> dict[str, str]:
+    """Return sentences that name the results whose computation the manual describes at a place, as HTML.
+
+    The keys are the addresses of the places.
+    """
+    named = dict[str, dict[str, None]]()
+    for calculation in CALCULATIONS:
+        for leaf in leaves(calculation.response):
+            if place := place_of(leaf.declared):
+                result = Markup("{} {}").format(leaf.declared.title, symbol(leaf.declared.symbol)).strip()
+                named.setdefault(place.address, {})[result] = None
+    return {address: f'<p class="named">Results: {"; ".join(results)}.</p>\n' for address, results in named.items()}
 
 
 class Symbol(NamedTuple):
@@ -157,9 +173,13 @@ def shown_studies() -> dict[str, ShownStudy]:
     return studies
 
 
-def _html(text: str, root: str) -> Markup:
-    """Convert Markdown of the manual to HTML; the prefix `root` is put before addresses of the service."""
-    return Markup(re.sub(r'\b(href|src|srcset)="/', rf'\1="{root}/', _markdown().render(text)))  # noqa: S704
+def _html(text: str, root: str, chapter: str | None = None) -> Markup:
+    """Convert Markdown of the manual to HTML; the prefix `root` is put before addresses of the service.
+
+    If the text is a whole `chapter`, the results that a place describes are named at the place.
+    """
+    html = _markdown().render(text, {"chapter": chapter})
+    return Markup(re.sub(r'\b(href|src|srcset)="/', rf'\1="{root}/', html))  # noqa: S704
 
 
 def _plain(text: str) -> Markup:
@@ -188,7 +208,7 @@ def _markdown() -> MarkdownIt:
     markdown.use(anchors_plugin, max_level=3)
     markdown.use(dollarmath_plugin, allow_labels=False, renderer=lambda text, _: _mathml(text, "inline"))
     markdown.core.ruler.push("figures", _figures_stand_alone)
-    for rule in (_math_block, _image, _link_open, _fence):
+    for rule in (_math_block, _heading_close, _image, _link_open, _fence):
         markdown.add_render_rule(rule.__name__.removeprefix("_"), rule)
     for name, html in FIXED.items():
         markdown.add_render_rule(name, lambda *_, html=html: html)
@@ -213,7 +233,9 @@ def _figures_stand_alone(state: Any) -> None:
             before.hidden = after.hidden = True
 
 
-def _math_block(_self: RendererHTML, tokens: Sequence[Token], place: int, *_: Any) -> str:
+def _math_block(
+    _self: RendererHTML, tokens: Sequence[Token], place: int, _options: OptionsDict, environment: dict[str, Any]
+) -> str:
     """Return the HTML of an equation; if the equation has a number, the number is shown and used as the anchor."""
     text = tokens[place].content
     tag = _TAG.search(text)
@@ -223,8 +245,21 @@ def _math_block(_self: RendererHTML, tokens: Sequence[Token], place: int, *_: An
     number = tag[1]
     return (
         f'<div class="equation scroll" id="{anchor(number)}" tabindex="0" role="region" aria-label="Equation {number}">'
-        f'{math}<span class="number">({number})</span></div>\n'
+        f'{math}<span class="number">({number})</span></div>\n{_results(environment, anchor(number))}'
     )
+
+
+def _heading_close(
+    renderer: RendererHTML, tokens: Sequence[Token], place: int, options: OptionsDict, environment: dict[str, Any]
+) -> str:
+    """Return the HTML at the end of a heading."""
+    section = str(tokens[place - 2].attrs.get("id", ""))
+    return renderer.renderToken(tokens, place, options, environment) + _results(environment, section)
+
+
+def _results(environment: dict[str, Any], section: str) -> str:
+    """Return the sentence with the results at a place of the chapter that is being converted, as HTML."""
+    return _results_at().get(f"/manual/{environment.get('chapter')}#{section}", "")
 
 
 def _image(
