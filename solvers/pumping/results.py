@@ -21,7 +21,7 @@ class MeshGeometry(Diameters):
     )
     transverse_contact_ratio: float = quantity("transverse contact ratio", "ε_α")
     normal_backlash: float = quantity(
-        "normal backlash", "j_n", unit="um", text="normal backlash of centre distance and thinned tooth"
+        "total normal backlash", "j_bn", unit="um", text="normal backlash of centre distance and thinned tooth"
     )
     undercut: bool = quantity("undercut", text="whether either gear is undercut")
 

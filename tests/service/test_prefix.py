@@ -25,7 +25,7 @@ FILES = {f"{PREFIX}/rexs", f"{PREFIX}/case"}
 ADDRESSES = re.compile(r'\b(?:href|src|srcset|action|formaction|data-values)="([^"#][^"]*)"')
 STUDY = "x=operation.misalignment_deg&x.count=3"
 # Fast enough to be asked for at every proxy.
-CASES = {"/v1/coupling", "/v1/pumping/choking-speed"}
+CASES = {"/v1/coupling", "/v1/coupling/recommendation"}
 
 pytestmark = [
     pytest.mark.service,
