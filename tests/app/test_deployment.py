@@ -109,8 +109,8 @@ def test_the_image_has_its_kernels_on_another_processor(tmp_path: Path) -> None:
     elsewhere.mkdir()
     (elsewhere / "sitecustomize.py").write_text(ELSEWHERE)
     own |= {"PYTHONPATH": str(elsewhere), "NUMBA_CACHE_DIR": str(prefix / "kernels")}
-    command = [str(prefix / "bin" / "tribodrive"), "solve", COUPLING.endpoint, "-"]
+    solving = [str(prefix / "bin" / "tribodrive"), "solve", COUPLING.endpoint, "-"]
     request = json.dumps(COUPLING.request)
-    solved = subprocess.run(command, env=own, cwd="/", input=request, check=True, capture_output=True, text=True)
+    solved = subprocess.run(solving, env=own, cwd="/", input=request, check=True, capture_output=True, text=True)
     assert json.loads(solved.stdout)["status"] == "ok"
     assert kernels() == kept
