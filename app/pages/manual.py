@@ -31,6 +31,7 @@ from app.pages.query import Pairs, link, pairs_of
 from app.pages.templating import example_link, model_of, page_path, rendered
 from app.pages.typesetting import symbol
 from app.schema.fields import Leaf, leaves
+from solvers.quantity import Quantity
 
 _FUNCTION = re.compile(r"\\(?:arc)?(?:sin|cos|tan|ln|exp|sinh|cosh|tanh|operatorname\{\w+\})(?![a-z])(?:\^\{?\w+\}?)?")
 _TAG = re.compile(r"\\tag\{([^}]+)\}")
@@ -97,7 +98,7 @@ def method_of(chapter: Chapter) -> dict[str, Any]:
 
 @cache
 def _results_at() -> dict[str, str]:
-    """Return sentences that name the results whose computation the manual describes at a place, as HTML.
+    """Return lists of the results whose computation the manual describes at a place, as HTML.
 
     The keys are the addresses of the places.
     """
@@ -105,9 +106,17 @@ def _results_at() -> dict[str, str]:
     for calculation in CALCULATIONS:
         for leaf in leaves(calculation.response):
             if place := place_of(leaf.declared):
-                result = Markup("{} {}").format(leaf.declared.title, symbol(leaf.declared.symbol)).strip()
-                named.setdefault(place.address, {})[result] = None
-    return {address: f'<p class="named">Results: {"; ".join(results)}.</p>\n' for address, results in named.items()}
+                named.setdefault(place.address, {})[_named(leaf.declared)] = None
+    return {
+        address: f'<p class="named">Results:</p><ul class="named"><li>{"</li><li>".join(results)}</li></ul>\n'
+        for address, results in named.items()
+    }
+
+
+def _named(declared: Quantity) -> str:
+    """Return the title of a result, its symbol and, in brackets, its description."""
+    text = f"({declared.text})" if declared.text and declared.text != declared.title else ""
+    return Markup(" ").join(part for part in (declared.title, symbol(declared.symbol), text) if part)
 
 
 class Symbol(NamedTuple):
@@ -258,7 +267,7 @@ def _heading_close(
 
 
 def _results(environment: dict[str, Any], section: str) -> str:
-    """Return the sentence with the results at a place of the chapter that is being converted, as HTML."""
+    """Return the list of the results at a place of the chapter that is being converted, as HTML."""
     return _results_at().get(f"/manual/{environment.get('chapter')}#{section}", "")
 
 
