@@ -100,7 +100,8 @@ def method_of(chapter: Chapter) -> dict[str, Any]:
 def _results_at() -> dict[str, str]:
     """Return lists of the results whose computation the manual describes at a place, as HTML.
 
-    The keys are the addresses of the places.
+    The page shows such a list only to a reader who came by a link to its place. The keys are the addresses of the
+    places.
     """
     named = dict[str, dict[str, None]]()
     for calculation in CALCULATIONS:
@@ -108,7 +109,7 @@ def _results_at() -> dict[str, str]:
             if place := place_of(leaf.declared):
                 named.setdefault(place.address, {})[_named(leaf.declared)] = None
     return {
-        address: f'<p class="named">Results:</p><ul class="named"><li>{"</li><li>".join(results)}</li></ul>\n'
+        address: f'<div class="named">Results computed here:<ul><li>{"</li><li>".join(results)}</li></ul></div>\n'
         for address, results in named.items()
     }
 
