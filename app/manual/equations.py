@@ -14,7 +14,9 @@ from importlib.resources import files
 
 from app.manual import chapters
 
-_EQUATION = re.compile(r"^\$\$\n(.*?)\n?\\tag\{([^}]+)\}\n\$\$(?=\n\n(.*?)(?:\n\n|\Z))", re.MULTILINE | re.DOTALL)
+_EQUATION = re.compile(
+    r"^\$\$\n((?:(?!\$\$).)*?)\n?\\tag\{([^}]+)\}\n\$\$(?=\n\n(.*?)(?:\n\n|\Z))", re.MULTILINE | re.DOTALL
+)
 _FUNCTION = re.compile(r"\[`(solvers[\w.]+)`\]\(")
 
 

@@ -29,6 +29,11 @@ def test_every_tag_is_an_equation_of_its_own() -> None:
     assert sorted(tags) == sorted(equations())
 
 
+def test_the_text_of_an_equation_is_that_of_no_other() -> None:
+    """A block without a number may stand before one with a number."""
+    assert [number for number, equation in equations().items() if "$" in equation.text] == []
+
+
 @pytest.mark.parametrize("number", sorted(equations()))
 def test_functions_of_an_equation_cite_it(number: str) -> None:
     for name in equations()[number].functions:
