@@ -93,7 +93,9 @@ def incompressible(
             grooves=0.0,
             reset=float(gas.density * face_width * (table.area[-1] - table.area[0])),
         ),
-        mass_error=float(abs(out @ (2 * area + gap) - gas.density * displaced.sum()) / (gas.density * table.area[0])),
+        mass_error=float(
+            abs(out @ (2 * area + gap) - gas.density * displaced.sum()) / (gas.density * face_width * table.area[0])
+        ),
         energy_error=None,
         ends=EndFlow(frozen(0.5 * (time[1:] + time[:-1])), frozen(front), frozen(front)),
         steps=step.size,
