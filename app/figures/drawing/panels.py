@@ -28,7 +28,9 @@ LEGEND_COLUMNS = 2  # columns of a legend above narrow axes
 LINE = 1.3 / 72.0  # inches; height of a line of text per point of letter size
 NAME_BELOW = 36  # characters per line of the name below narrow axes
 ROW = 0.52  # height of a row's bar divided by the distance between rows
-LEAST_REACH = 7  # typographic points between a text and its point or line
+LEAST_REACH = 7  # typographic points between a text and its point or vertical line
+ROW_REACH = 3  # typographic points between a horizontal line and its name
+WRONG = 4.0  # cost of a name that is nearer to another horizontal line, or of a leader line that crosses a text
 FAR = 12  # typographic points; a thin line leads from a point to its text if they are farther apart
 # Typographic points between a text and a curve, for the edge of the text's patch and half the width of the curve; cost
 # of a text that is closer to a curve but not over the curve.
@@ -410,30 +412,50 @@ def place_texts(axes: Axes, panel: Panel) -> None:
         while (box := text.get_window_extent()).width > room.width or box.height > room.height:
             text.set_text(text.get_text().rpartition("\n")[0])
         _keep_clear(axes, text, room, named, rings)
-    taken: list[BboxBase] = [text.get_window_extent() for text in axes.texts if text.get_gid() not in MOVED]
+    taken: list[Bbox] = [text.get_window_extent() for text in axes.texts if text.get_gid() not in MOVED]
     taken += [*rings, axes.yaxis.label.get_window_extent(), axes.title.get_window_extent()]
     shapes = [line for line in axes.lines if line.get_linestyle() != "None"]
     shapes += [bar for container in axes.containers for bar in container]
     curves = [shape.get_path().transformed(shape.get_transform()) for shape in shapes]
+    rows = [_point_of(text)[1] for text in axes.texts if text.get_gid() == "row"]
     for text in [*axes.texts]:
         if text.get_gid() not in MOVED:
             continue
         text.set(ha="center", va="center")
-        size, room = text.get_window_extent(), axes.bbox
+        size, room, at = text.get_window_extent(), axes.bbox, _point_of(text)
         # The cost of a position is a sum. It counts the overlapped texts, the hidden parts of curves, the length of the
-        # text outside the axes, and the distance from the point.
+        # text outside the axes, the distance from the point, and whether the text seems to belong to something else.
         costs = {}
         for place, distance in _places(str(text.get_gid()), size, room, point):
             box = size.translated(*place)
+            leader = Path([at, at + np.array(place)])
+            if text.get_gid() == "row":
+                wrong = int(any(abs(at[1] + place[1] - row) < abs(place[1]) for row in rows))
+            elif text.get_gid() in SIDES:
+                wrong = sum(leader.intersects_bbox(other) for other in taken if not other.contains(*at))
+            else:
+                wrong = 0
             outside = max(room.x0 - box.x0, box.x1 - room.x1, 0.0) + max(room.y0 - box.y0, box.y1 - room.y1, 0.0)
             near = box.padded(CLEAR * point)
             hidden = sum(_hidden(curve, box, near) for curve in curves if curve.intersects_bbox(near, filled=False))
-            costs[place] = hidden + 10.0 * sum(box.overlaps(other) for other in taken) + outside + distance
+            overlapped = sum(box.overlaps(other) for other in taken)
+            costs[place] = hidden + 10.0 * overlapped + outside + distance + WRONG * wrong
         best = min(costs, key=costs.__getitem__)
         text.set_position((best[0] / point, best[1] / point))
         if isinstance(text, Annotation) and text.get_gid() in SIDES:
             curves += _lead(axes, text, size, best, point)
         taken.append(size.translated(*best).padded(2.0 * point))  # leaves space between the patches of two texts
+
+
+def _point_of(text: Text) -> Values:
+    """Return the point or the end of the line that a text names, in pixels."""
+    assert isinstance(text, Annotation)
+    coordinates: Any = text.xycoords
+    axes = text.axes
+    assert axes is not None
+    transform = axes.transData if coordinates == "data" else coordinates
+    point: Values = transform.transform(text.xy)
+    return point
 
 
 def _lead(axes: Axes, text: Annotation, size: BboxBase, place: tuple[float, float], point: float) -> list[Path]:
@@ -471,7 +493,7 @@ def _places(kind: str, size: BboxBase, room: BboxBase, point: float) -> Iterator
     line (`column`) stays on the line or directly beside the line, and may move down. `point` is the size of a
     typographic point in pixels.
     """
-    gap = LEAST_REACH * point
+    gap = (ROW_REACH if kind == "row" else LEAST_REACH) * point
     if kind == "row":
         free = max(room.width - size.width - 2 * gap, 0.0)
         for step, away, side in product(range(ALONG + 1), range(AWAY + 1), (1, -1)):

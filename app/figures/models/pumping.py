@@ -43,11 +43,8 @@ def pressure_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def mach_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the axial Mach number, with contours at sonic flow in both directions.
-
-    Flow towards the end that meshes last is positive.
-    """
-    panels = _maps(inputs, result, "axial_mach", Scale.SIGNED, Level(1.0, "sonic"), Level(-1.0, "sonic"))
+    """Draw the axial Mach number without the direction of the flow. A contour shows where the flow is sonic."""
+    panels = _maps(inputs, result, "axial_mach", Scale.MAGNITUDE, Level(1.0, "sonic"))
     peak = max(space.peak_axial_mach for _, space in spaces(result))
     choked = [gear for gear, space in spaces(result) if space.axial_choked]
     if choked:
