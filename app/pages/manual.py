@@ -109,7 +109,7 @@ def _results_at() -> dict[str, str]:
             if place := place_of(leaf.declared):
                 named.setdefault(place.address, {})[_named(leaf.declared)] = None
     return {
-        address: f'<div class="named">Results computed here:<ul><li>{"</li><li>".join(results)}</li></ul></div>\n'
+        address: f'<div class="landed">Results computed here:<ul><li>{"</li><li>".join(results)}</li></ul></div>\n'
         for address, results in named.items()
     }
 

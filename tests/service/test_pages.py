@@ -533,3 +533,16 @@ def test_back_from_a_calculation_returns_to_the_gear_unit(visit: Callable[..., P
     expect(page.get_by_role("heading", name="Stages")).to_be_visible()
     page.reload()
     expect(page.get_by_role("heading", name="Stages")).to_be_visible()
+
+
+@pytest.mark.parametrize("size", [PHONE, DESK], ids=lambda size: f"{size['width']} px")
+def test_a_result_leads_to_the_place_that_names_it(visit: Callable[..., Page], size: dict[str, int]) -> None:
+    page = visit(address_of("pahl-axial-displacement"), viewport=size)
+    everything = page.locator("#all")
+    if everything.get_attribute("open") is None:
+        everything.locator("summary").click()
+    row = everything.locator("tr", has_text="contact shift moment")
+    expect(row).to_be_visible()
+    row.locator(".place a").click()
+    expect(page.locator(".landed:visible")).to_have_count(1)
+    expect(page.locator(".landed:visible")).to_contain_text("contact shift moment")
