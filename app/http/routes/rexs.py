@@ -117,7 +117,7 @@ async def show_unit(http: Request, name: str) -> Response:
     """Show the stages, the findings and the links of a unit, as long as the page of the unit is kept."""
     shown = http.app.state.answers.get(_key(root_of(http), name))
     if shown is None:
-        reason = "The service keeps the page of a gear unit for a short time only. Open the file again."
+        reason = "The service keeps such a page for a short time only. This page no longer exists; open the file again."
         return problem_page(http, 410, "The file has to be opened again", reason)
     return html(shown)
 
