@@ -1,13 +1,9 @@
 """A fixed number of worker processes, and the queue of their calls.
 
-The owner of a call is a client or a study. A free worker gets a call of the owner with the fewest running calls. If
-several owners have the same number of running calls, the owner whose last call began longest ago is next.
-
-If the queue is full, a call is rejected, unless another client has at least two waiting and running calls more than the
-client of this call. Calls of studies are neither counted nor rejected.
-
-If nobody waits for the result of a running call any more, the call may run for another `GRACE_S` seconds. After this
-time the worker of the call is killed and replaced.
+The owner of a call is a client or a study. A free worker gets a call of the owner with the fewest running calls; of
+several such owners, the owner whose last call began longest ago is next. If the queue is full, a call of a client is
+rejected, unless another client has at least two waiting and running calls more. If nobody waits for the result of a
+running call any more, the call may run for another `GRACE_S` seconds. Then its worker is killed and replaced.
 """
 
 import asyncio
@@ -32,7 +28,7 @@ from app.workers.worker import perform, prepare
 GRACE_S = 2.0  # nearly all calculations end in this time, so users who leave a page early rarely cost a worker
 START_S = 30.0  # longest time of a worker's start, chosen: a start takes 2 s on an idle core
 IDLE_S = 5.0  # time between two checks that idle workers answer
-PAUSE_S = 0.1  # pause before a lost worker is replaced
+PAUSE_S = 0.1  # pause after the start of a worker has failed
 
 logger = logging.getLogger("tribodrive")
 Outcome = asyncio.Future[Any]
@@ -40,17 +36,13 @@ Outcome = asyncio.Future[Any]
 
 @dataclass(eq=False, slots=True)
 class Job:
-    """A call of an owner: a pickled function with its arguments.
-
-    While the call runs, the pool uses `timeout` to set the time at which the call is ended. Before the call runs,
-    `timeout` is None.
-    """
+    """A call of an owner: a pickled function with its arguments."""
 
     owner: Hashable
     call: bytes
     is_single: bool  # False if the call is part of a study
     outcome: Outcome
-    timeout: asyncio.Timeout | None = None
+    timeout: asyncio.Timeout | None = None  # ends the call; None before the call runs
 
 
 class Pool:
@@ -75,12 +67,7 @@ class Pool:
         return sum(self._is_usable)
 
     async def calculate(self, http: Request, function: Callable[..., Any], *arguments: Any) -> Any:
-        """Run a call in a worker and return its result.
-
-        The owner of the call is the client. A proxy may send the name of the client in the header that the setting
-        `client_header` names. If the request has no such header, the address of the client is used instead of the name.
-        Raises the errors of the call, and exceptions in the table `PROBLEMS`.
-        """
+        """Run a call of a client in a worker. Raises the errors of the call, and those in the table `PROBLEMS`."""
         owner = http.headers.get(self._settings.client_header or "") or (http.client.host if http.client else "")
         self._admit(owner)
         return await unless_gone(http, self.submit(owner, function, *arguments), self._settings.deadline_s)
@@ -101,11 +88,7 @@ class Pool:
             raise QueueFull
 
     def _let_go(self, job: Job) -> None:
-        """Remove a waiting call from the queue, or limit the time of a running call to another `GRACE_S` seconds.
-
-        This function runs as soon as the future of the call is done. If the call was cancelled, for example, the future
-        is done although the call is still waiting or running.
-        """
+        """Remove a call whose future is done from the queue, or limit its time if the call is still running."""
         if job in self._waiting:
             self._waiting.remove(job)
         elif job in self._running and job.timeout is not None and not job.timeout.expired():
@@ -189,11 +172,7 @@ class Pool:
 
 
 async def unless_gone(http: Request, work: Outcome, deadline_s: float | None = None) -> Any:
-    """Wait for `work` and return its result.
-
-    If the client leaves, cancel the work and raise ClientGone. If the deadline passes, cancel the work and raise
-    DeadlineExceeded.
-    """
+    """Wait for `work` and return its result. If the client leaves or the deadline passes, cancel the work and raise."""
     departure = asyncio.create_task(_departure(http))
     try:
         await asyncio.wait({work, departure}, timeout=deadline_s, return_when=asyncio.FIRST_COMPLETED)

@@ -14,11 +14,7 @@ from app.calculations import BY_PATH, LINE_CONTACT, STAGES, Stage
 from app.errors import WarmingUp
 from solvers.kernel_cache import FOLDER
 
-BESIDE = LINE_CONTACT
-"""The stage that is compiled beside the others, because it takes as long as all of them together.
-
-Of their kernels it needs only those of the load distribution, near the end of its own compilation.
-"""
+BESIDE = LINE_CONTACT  # compiled beside the other stages, because it takes as long as all of them together
 
 logger = logging.getLogger("tribodrive")
 
@@ -41,11 +37,7 @@ class StartUp:
             raise WarmingUp(f"Kernels are being compiled, once after installation: {report}")
 
     async def run(self) -> None:
-        """Compile all stages, then open all endpoints.
-
-        If the first attempt fails, a second attempt begins with an empty folder for kernels. All endpoints open even if
-        the second attempt fails.
-        """
+        """Compile all stages, if need be once more in an empty folder, then open all endpoints in any case."""
         began = time.monotonic()
         if FOLDER is not None and not await self._compile(STAGES):
             logger.warning("a process that compiled kernels died: all are compiled anew")

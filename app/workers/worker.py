@@ -1,7 +1,4 @@
-"""The functions that run in a worker process: the preparation of the process, and the execution of calls.
-
-The preparation limits the number of threads before numpy is loaded.
-"""
+"""The functions that run in a worker process: the preparation of the process, and the execution of calls."""
 
 import gc
 import logging
@@ -26,12 +23,9 @@ _notes = BufferingHandler(1000)
 
 @lru_cache(maxsize=1)
 def prepare(memory_bytes: int, modules: Sequence[str]) -> None:
-    """Prepare this process for calls: load modules, and limit the memory if the platform allows a limit.
-
-    Only the first call has an effect.
-    """
+    """Prepare this process for calls: load modules, and limit the memory. Only the first call has an effect."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # ignored here, because Ctrl-C reaches every process of the terminal
-    os.environ.update(ONE_THREAD)
+    os.environ.update(ONE_THREAD)  # before numpy is loaded
     threading.Thread(target=_end_with_the_service, args=(os.getppid(),), daemon=True).start()
     gc.disable()  # imports leave no garbage, and the search for garbage takes a third of the time of the imports
     for name in modules:
