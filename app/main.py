@@ -54,7 +54,8 @@ def create_app() -> FastAPI:
                 logger.warning(line)
             logger.info("tribodrive: %d workers", limits.workers)
             async with app.state.studies.open(), asyncio.TaskGroup() as group:
-                tasks = [group.create_task(work) for work in (pool.run(), start_up.run())]
+                works = [pool.keep_workers(), start_up.run(), *(pool.serve() for _ in range(limits.workers))]
+                tasks = [group.create_task(work) for work in works]
                 try:
                     yield
                 finally:

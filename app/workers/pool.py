@@ -9,7 +9,6 @@ running call any more, the call may run for another `GRACE_S` seconds. Then its 
 import asyncio
 import logging
 import pickle
-import time
 from collections import Counter
 from collections.abc import Callable, Hashable, Sequence
 from contextlib import suppress
@@ -50,21 +49,16 @@ class Pool:
 
     def __init__(self, settings: Settings, modules: Sequence[str]) -> None:
         self.size = settings.workers
-        self._is_usable = [False] * settings.workers  # for each worker, whether it can calculate
+        self.alive = self._lost = 0  # workers that can calculate, and workers that were lost during the last check
         self._settings = settings
         self._preparation = (settings.worker_memory_mb * MEBIBYTE, tuple(modules))
         self._limiter = CapacityLimiter(settings.workers)
         self._running: list[Job] = []
         self._waiting: list[Job] = []
-        self._arrival, self._is_open = asyncio.Event(), asyncio.Event()
+        self._arrival, self._trouble = asyncio.Event(), asyncio.Event()
         self._begun: LRUCache[Hashable, float] = LRUCache(1000)  # time [s] when the last call of each owner began
         WAITING.set_function(lambda: sum(job.is_single for job in self._waiting))
         CALCULATIONS.set_function(lambda: sum(job.is_single for job in (*self._running, *self._waiting)))
-
-    @property
-    def alive(self) -> int:
-        """Number of workers that can calculate."""
-        return sum(self._is_usable)
 
     async def calculate(self, http: Request, function: Callable[..., Any], *arguments: Any) -> Any:
         """Run a call of a client in a worker. Raises the errors of the call, and those in the table `PROBLEMS`."""
@@ -94,53 +88,54 @@ class Pool:
         elif job in self._running and job.timeout is not None and not job.timeout.expired():
             job.timeout.reschedule(asyncio.get_running_loop().time() + GRACE_S)
 
-    async def run(self) -> None:
-        """Keep all workers running, without end. The first worker starts alone, so that it is ready soon."""
-        async with asyncio.TaskGroup() as group:
-            group.create_task(self._serve(0))
-            await self._is_open.wait()
-            for number in range(1, self.size):
-                group.create_task(self._serve(number))
+    async def keep_workers(self) -> None:
+        """Start the workers, check idle workers, and replace lost workers.
 
-    async def _serve(self, number: int) -> None:
-        """Start a worker, give it calls one after another, check it while it is idle, and replace it if it is lost."""
-        while True:
-            self._is_usable[number] = await self._is_prepared()
-            if not self._is_usable[number]:
-                await asyncio.sleep(PAUSE_S)
-                continue
-            self._is_open.set()
-            while self._is_usable[number] and (job := await self._next_job()):
-                self._running.append(job)
-                try:
-                    self._is_usable[number] = await self._carry_out(job)
-                finally:
-                    self._running.remove(job)
-
-    async def _is_prepared(self) -> bool:
-        with suppress(BrokenWorkerProcess, OSError):
-            async with asyncio.timeout(START_S):
-                await self._in_worker(prepare)
-            return True
-        return False
-
-    async def _next_job(self) -> Job | None:
-        """Wait for a call and choose it. Return None if no call arrives until the idle workers are to be checked.
-
-        All idle workers are checked at the same time. Otherwise AnyIO would give all checks to the same worker, and end
-        the others because they are not used.
+        The first worker starts alone, so that it is ready soon. Idle workers are checked all at the same time, because
+        AnyIO gives single checks to the same worker, and ends workers that are not used.
         """
-        with suppress(TimeoutError):
-            async with asyncio.timeout(IDLE_S - time.monotonic() % IDLE_S):
-                while not (waiting := [job for job in self._waiting if not job.outcome.done()]):
-                    self._arrival.clear()
-                    await self._arrival.wait()
+        count = 1
+        while True:
+            running, self._lost = len(self._running), 0
+            self._trouble.clear()
+            pids = set(await asyncio.gather(*(self._prepared() for _ in range(count)))) - {None}
+            self.alive = running + len(pids) - self._lost
+            self._arrival.set()
+            with suppress(TimeoutError):
+                async with asyncio.timeout(IDLE_S if self.alive >= self.size else PAUSE_S):
+                    await self._trouble.wait()
+            count = self.size - len(self._running)
+
+    async def _prepared(self) -> int | None:
+        """Start a worker or check an idle worker. Return the identifier of its process, or None after a failure."""
+        try:
+            async with asyncio.timeout(START_S):
+                pid: int = await self._in_worker(prepare)
+                return pid
+        except Exception as error:  # noqa: BLE001  whatever prevents a worker must not end the service
+            logger.warning("a worker could not be prepared: %r", error)
+            return None
+
+    async def serve(self) -> None:
+        """Give calls to workers one after another, without end. This function runs once for each worker."""
+        while True:
+            while len(self._running) >= self.alive or not (
+                waiting := [job for job in self._waiting if not job.outcome.done()]
+            ):
+                self._arrival.clear()
+                await self._arrival.wait()
             running = Counter(job.owner for job in self._running)
             job = min(waiting, key=lambda job: (running[job.owner], self._begun.get(job.owner, 0.0)))
-            self._begun[job.owner] = time.monotonic()
+            self._begun[job.owner] = asyncio.get_running_loop().time()
             self._waiting.remove(job)
-            return job
-        return None
+            self._running.append(job)
+            try:
+                is_usable = await self._carry_out(job)
+            finally:
+                self._running.remove(job)
+            if not is_usable:
+                self._lost, self.alive = self._lost + 1, self.alive - 1
+                self._trouble.set()
 
     async def _carry_out(self, job: Job) -> bool:
         """Run a call and set the result or the exception of its future. Return True if the worker can be used again."""

@@ -5,6 +5,7 @@ import logging
 import os
 import pickle
 import signal
+import sys
 import threading
 import time
 import traceback
@@ -17,13 +18,13 @@ from typing import Any
 
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 
-_notes = BufferingHandler(1000)
+_notes = BufferingHandler(sys.maxsize)
 """Handler that keeps log records for the answer of the call, because nobody reads a worker's standard error."""
 
 
 @lru_cache(maxsize=1)
-def prepare(memory_bytes: int, modules: Sequence[str]) -> None:
-    """Prepare this process for calls: load modules, and limit the memory. Only the first call has an effect."""
+def prepare(memory_bytes: int, modules: Sequence[str]) -> int:
+    """Prepare this process for calls and return its identifier. Only the first call loads modules and limits memory."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # ignored here, because Ctrl-C reaches every process of the terminal
     os.environ.update(ONE_THREAD)  # before numpy is loaded
     threading.Thread(target=_end_with_the_service, args=(os.getppid(),), daemon=True).start()
@@ -38,6 +39,7 @@ def prepare(memory_bytes: int, modules: Sequence[str]) -> None:
         import resource  # noqa: PLC0415  not on all platforms
 
         resource.setrlimit(resource.RLIMIT_DATA, (memory_bytes, memory_bytes))
+    return os.getpid()
 
 
 def _end_with_the_service(service: int) -> None:

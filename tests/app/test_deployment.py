@@ -87,7 +87,7 @@ llvm.get_host_cpu_features = lambda: llvm.FeatureMap(sse2=True)
 
 @pytest.mark.slow
 def test_the_image_has_its_kernels_on_another_processor(tmp_path: Path) -> None:
-    """Its build steps with the first stage, then an answer of a process that takes the processor for another."""
+    """Its build steps with the first stage alone, then an answer of a process that takes the processor for another."""
     source, prefix, elsewhere = tmp_path / "src", tmp_path / "prefix", tmp_path / "elsewhere"
     listed = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True)  # noqa: S607
     left_out = (ROOT / ".dockerignore").read_text().split()

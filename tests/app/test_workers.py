@@ -2,13 +2,13 @@
 
 import asyncio
 import pickle
-from collections import deque
+from collections import Counter, deque
 from collections.abc import Awaitable, Callable
 from contextlib import suppress
 from typing import Any
 
 import pytest
-from anyio import BrokenWorkerProcess, to_process
+from anyio import BrokenWorkerProcess, CapacityLimiter, to_process
 
 from app.errors import QueueFull, WorkerLost
 from app.settings import Settings
@@ -18,25 +18,40 @@ from app.workers.worker import perform, prepare
 
 
 class Processes:
-    """Stands for AnyIO's processes: calls are answered when a test says so, starts as they are scripted."""
+    """Stands for AnyIO's processes: calls are answered when a test says so, starts as they are scripted.
+
+    As with AnyIO, a call goes to the process that was used last of the idle ones, or starts one if none is idle.
+    """
 
     def __init__(self) -> None:
         self.calls: dict[str, asyncio.Future[tuple[str, list[str]]]] = {}
         self.order: list[str] = []
+        self.idle: list[int] = []
+        self.checked = Counter[int]()
         self.starts = 0
         self.faults: deque[Callable[[], Awaitable[None]]] = deque()
 
-    async def run_sync(self, function: Callable[..., Any], *arguments: Any, **_: Any) -> Any:
-        if function is prepare:
-            self.starts += 1
-            if self.faults:
-                await self.faults.popleft()()
-            return None
-        assert function is perform
-        _, (name,) = pickle.loads(arguments[-1])  # noqa: S301  of this test
-        self.order.append(name)
-        self.calls[name] = asyncio.get_running_loop().create_future()
-        return await self.calls[name]
+    async def run_sync(self, function: Callable[..., Any], *arguments: Any, limiter: CapacityLimiter, **_: Any) -> Any:
+        async with limiter:
+            if self.idle:
+                process = self.idle.pop()
+            else:
+                self.starts += 1
+                process = self.starts
+                if self.faults:
+                    await self.faults.popleft()()
+            if function is prepare:
+                self.checked[process] += 1
+                await asyncio.sleep(0)
+                self.idle.append(process)
+                return process
+            assert function is perform
+            _, (name,) = pickle.loads(arguments[-1])  # noqa: S301  of this test
+            self.order.append(name)
+            self.calls[name] = asyncio.get_running_loop().create_future()
+            answer = await self.calls[name]
+            self.idle.append(process)
+            return answer
 
     async def answer(self, name: str) -> None:
         """Let a call end with its own name."""
@@ -62,13 +77,16 @@ def with_pool(
 
     async def run() -> None:
         pool = Pool(Settings(workers=workers, queue=4), ())
-        serving = asyncio.create_task(pool.run())
+        tasks = [asyncio.create_task(work) for work in (pool.keep_workers(), *(pool.serve() for _ in range(workers)))]
         await settled()
+        while not faults and pool.alive < workers:  # noqa: ASYNC110  nothing tells when
+            await asyncio.sleep(0.01)
         try:
             await check(pool, processes)
         finally:
-            serving.cancel()
-            await asyncio.gather(serving, return_exceptions=True)
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
 
     asyncio.run(run())
 
@@ -199,26 +217,36 @@ def test_a_call_does_not_wait_for_the_start_of_a_worker_if_another_worker_is_fre
         await processes.answer("1")
         assert (first.result(), second.result()) == ("0", "1")
 
+    monkeypatch.setattr(pools, "PAUSE_S", 0.01)
     with_pool(monkeypatch, check, faults=(succeed, hang))
 
 
-def test_idle_workers_are_called_all_at_the_same_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    """AnyIO would give calls one after the other to the same worker, and drop the other one."""
+def test_idle_workers_are_checked_all_at_the_same_time(monkeypatch: pytest.MonkeyPatch) -> None:
+    """AnyIO would give checks one after the other to the same worker, and drop the other one."""
+
+    async def check(pool: Pool, processes: Processes) -> None:
+        await asyncio.sleep(0.5)
+        assert pool.alive == processes.starts == 2
+        assert all(count > 3 for count in processes.checked.values())
+
+    monkeypatch.setattr(pools, "IDLE_S", 0.05)
+    monkeypatch.setattr(pools, "PAUSE_S", 0.01)
+    with_pool(monkeypatch, check)
+
+
+def test_a_lost_worker_is_replaced_while_another_one_is_idle(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The check of the idle worker must not stand for the new one."""
 
     async def check(pool: Pool, processes: Processes) -> None:
         await asyncio.sleep(0.2)
-        assert pool.alive == 2
-        both = asyncio.Barrier(2)
-
-        async def meet() -> None:
-            async with asyncio.timeout(5):
-                await both.wait()
-
-        processes.faults.extend([meet, meet])
+        assert pool.alive == processes.starts == 2
+        lost = ask(pool, "client", "0")
+        await settled()
+        processes.calls["0"].set_exception(BrokenWorkerProcess())
         await asyncio.sleep(0.2)
-        assert not processes.faults
-        assert pool.alive == 2
+        assert isinstance(lost.exception(), WorkerLost)
+        assert len(processes.idle) == pool.alive == 2
+        assert processes.starts == 3
 
-    monkeypatch.setattr(pools, "IDLE_S", 0.05)
     monkeypatch.setattr(pools, "PAUSE_S", 0.01)
     with_pool(monkeypatch, check)

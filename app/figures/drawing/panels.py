@@ -30,7 +30,7 @@ NAME_BELOW = 36  # characters per line of the name below narrow axes
 ROW = 0.52  # height of a row's bar divided by the distance between rows
 LEAST_REACH = 7  # typographic points between a text and its point or vertical line
 ROW_REACH = 3  # typographic points between a horizontal line and its name
-WRONG = 4.0  # cost of a name that is nearer to another horizontal line, or of a leader line that crosses a text
+WRONG = 4.0  # cost of a name that is nearer to another horizontal line, or separated from its point by a text
 FAR = 12  # typographic points; a thin line leads from a point to its text if they are farther apart
 # Typographic points between a text and a curve, for the edge of the text's patch and half the width of the curve; cost
 # of a text that is closer to a curve but not over the curve.
@@ -430,7 +430,7 @@ def place_texts(axes: Axes, panel: Panel) -> None:
             box = size.translated(*place)
             leader = Path([at, at + np.array(place)])
             if text.get_gid() == "row":
-                wrong = int(any(abs(at[1] + place[1] - row) < abs(place[1]) for row in rows))
+                wrong = int(any(abs(at[1] + place[1] - row) < abs(place[1]) - 0.01 for row in rows))
             elif text.get_gid() in SIDES:
                 wrong = sum(leader.intersects_bbox(other) for other in taken if not other.contains(*at))
             else:
