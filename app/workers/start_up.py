@@ -31,8 +31,9 @@ class StartUp:
         return [name for name, percent in self._percent.items() if percent == 100]
 
     def require(self, *endpoints: str) -> None:
-        """Raise WarmingUp if the stage of one of the endpoints is not ready."""
-        if not {BY_PATH[endpoint].stage.name for endpoint in endpoints} <= {*self.warm}:
+        """Raise WarmingUp if the stage of one of the endpoints is not ready; without endpoints, if any stage is not."""
+        needed = {BY_PATH[endpoint].stage.name for endpoint in endpoints} or {*self._percent}
+        if not needed <= {*self.warm}:
             report = ", ".join(f"{name} {percent} %" for name, percent in self._percent.items())
             raise WarmingUp(f"Kernels are being compiled, once after installation: {report}")
 

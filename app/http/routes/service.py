@@ -6,7 +6,6 @@ from fastapi import APIRouter, HTTPException, Path, Request, Response
 from prometheus_client import CONTENT_TYPE_LATEST, generate_latest
 from pydantic import BaseModel
 
-from app.calculations import BY_PATH
 from app.errors import WorkerLost
 from app.examples import Example, ExampleSummary, examples
 from app.http.problems import documented
@@ -57,7 +56,7 @@ async def healthz() -> Health:
 async def readyz(http: Request) -> Readiness:
     """Return `ok` if all calculations are ready. Otherwise, answer 503 at once, with the progress of the warm-up."""
     start_up, pool = http.app.state.start_up, http.app.state.pool
-    start_up.require(*BY_PATH)
+    start_up.require()
     if pool.alive <= 0:
         raise WorkerLost
     return Readiness(warm=start_up.warm, workers=pool.alive)
