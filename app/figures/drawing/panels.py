@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm, Normalize, to_rgba
 from matplotlib.patches import Rectangle
 from matplotlib.path import Path
+from matplotlib.patheffects import withStroke
 from matplotlib.text import Annotation, Text
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.transforms import Bbox, BboxBase, ScaledTranslation
@@ -53,6 +54,8 @@ STEPS = (1, 2, 2.5, 5, 10)  # permitted distances between ticks, to be multiplie
 NUMBERS = FuncFormatter(lambda value, _: number(value, digits=6))
 
 Style = dict[str, Any]  # keyword arguments of matplotlib's artists
+# A dark edge on both sides of a curve, so that the curve is seen on every colour of a map.
+OUTLINE: Style = {"path_effects": [withStroke(linewidth=3.2, foreground="#12171f", alpha=0.75)]}
 
 
 def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -> None:
@@ -82,7 +85,7 @@ def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -
     for bars in panel.bars:
         _draw_bars(axes, bars, [other for other in panel.bars if other.role is bars.role])
     for line in panel.lines:
-        _draw_line(axes, line)
+        _draw_line(axes, line, OUTLINE if panel.map is not None else {})
     several = len({mark.hue for mark in panel.marks}) > 1
     rising = sorted(panel.marks, key=lambda mark: mark.y)
     for mark in rising:
@@ -178,12 +181,12 @@ def _draw_fills(axes: Axes, panel: Panel) -> None:
         axes.fill(shape.x, shape.y, label=fill(shape.title, NAME_LENGTH), **style)
 
 
-def _draw_line(axes: Axes, line: Line) -> None:
+def _draw_line(axes: Axes, line: Line, outline: Style) -> None:
     """Draw a curve. A point whose neighbours have no value is drawn as a dot, because no line leads to this point."""
     finite = np.isfinite(line.y)
     alone = finite & ~np.append(False, finite[:-1]) & ~np.append(finite[1:], False)
     dashes = STROKES[line.stroke % len(STROKES)] if line.role is Role.RESULT else DASHES[line.role]
-    style: Style = {"color": line.hue, "linestyle": dashes}
+    style: Style = {"color": line.hue, "linestyle": dashes, **outline}
     if line.named and finite.any():
         style["label"] = fill(line.title, NAME_LENGTH)
     if alone.any():
