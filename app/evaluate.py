@@ -128,9 +128,9 @@ def figure_of(name: str, image_format: figures.Format, theme: ThemeName, path: s
 
 
 def warm(stage: Stage) -> None:
-    """Answer the examples of a stage, so that this process compiles or loads all kernels of the stage.
+    """Compile or load all kernels of a stage in this process, by answering the examples of the stage.
 
-    If there is a folder for kernels, kernels that had to be compiled are stored there.
+    If there is a folder for kernels, the compiled kernels are stored there.
     """
     for name in stage.examples:
         example = examples()[name]

@@ -46,7 +46,7 @@ class Settings(BaseSettings):
         (), description="host names, with commas between them, that reports may print; others are left out"
     )
     workers: int = Field(default_factory=_share_of_cores, ge=1, le=256, description="worker processes that solve")
-    queue: int = Field(64, ge=0, description="requests that may wait; more are refused, except of clients with few")
+    queue: int = Field(64, ge=0, description="requests that may wait; one more gets a 503, unless its client has few")
     client_header: str | None = Field(
         None, description="header in which a proxy names the client, for fair shares; without it the address counts"
     )

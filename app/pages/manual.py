@@ -98,10 +98,9 @@ def method_of(chapter: Chapter) -> dict[str, Any]:
 
 @cache
 def _results_at() -> dict[str, str]:
-    """Return lists of the results whose computation the manual describes at a place, as HTML.
+    """Return a list of results, as HTML, for each place of the manual that describes how results are computed.
 
-    The page shows such a list only to a reader who came by a link to its place. The keys are the addresses of the
-    places.
+    The keys are the addresses of the places. The page shows a list only if the reader followed a link to its place.
     """
     named = dict[str, dict[str, None]]()
     for calculation in CALCULATIONS:
@@ -184,9 +183,9 @@ def shown_studies() -> dict[str, ShownStudy]:
 
 
 def _html(text: str, root: str, chapter: str | None = None) -> Markup:
-    """Convert Markdown of the manual to HTML; the prefix `root` is put before addresses of the service.
+    """Convert Markdown of the manual to HTML, and put the prefix `root` before addresses of the service.
 
-    If the text is a whole `chapter`, the results that a place describes are named at the place.
+    If `chapter` is the name of a chapter, each place of the chapter gets the list of the results computed there.
     """
     html = _markdown().render(text, {"chapter": chapter})
     return Markup(re.sub(r'\b(href|src|srcset)="/', rf'\1="{root}/', html))  # noqa: S704
@@ -268,7 +267,7 @@ def _heading_close(
 
 
 def _results(environment: dict[str, Any], section: str) -> str:
-    """Return the list of the results at a place of the chapter that is being converted, as HTML."""
+    """Return the list of the results, as HTML, that are computed in a `section` of the chapter in `environment`."""
     return _results_at().get(f"/manual/{environment.get('chapter')}#{section}", "")
 
 

@@ -35,7 +35,7 @@ Outcome = asyncio.Future[Any]
 
 @dataclass(eq=False, slots=True)
 class Job:
-    """A call of an owner: a pickled function with its arguments."""
+    """A call of an owner. `call` is the pickled function with its arguments."""
 
     owner: Hashable
     call: bytes
@@ -61,7 +61,7 @@ class Pool:
         CALCULATIONS.set_function(lambda: sum(job.is_single for job in (*self._running, *self._waiting)))
 
     async def calculate(self, http: Request, function: Callable[..., Any], *arguments: Any) -> Any:
-        """Run a call of a client in a worker. Raises the errors of the call, and those in the table `PROBLEMS`."""
+        """Run a call of a client in a worker. Raises the errors of the call and the errors in the table `PROBLEMS`."""
         owner = http.headers.get(self._settings.client_header or "") or (http.client.host if http.client else "")
         self._admit(owner)
         return await unless_gone(http, self.submit(owner, function, *arguments), self._settings.deadline_s)
@@ -75,14 +75,14 @@ class Pool:
         return job.outcome
 
     def _admit(self, owner: Hashable) -> None:
-        """Raise QueueFull if all places are taken, and no other client has clearly more of them than this owner."""
+        """Raise QueueFull if the queue is full, unless another client has at least two more calls than this owner."""
         places = Counter(job.owner for job in (*self._running, *self._waiting) if job.is_single)
         if places.total() >= self.size + self._settings.queue and max(places.values()) <= places[owner] + 1:
             REFUSED.inc()
             raise QueueFull
 
     def _let_go(self, job: Job) -> None:
-        """Remove a call whose future is done from the queue, or limit its time if the call is still running."""
+        """Remove a waiting call from the queue, or limit a running call to another `GRACE_S` seconds."""
         if job in self._waiting:
             self._waiting.remove(job)
         elif job in self._running and job.timeout is not None and not job.timeout.expired():
@@ -91,8 +91,8 @@ class Pool:
     async def keep_workers(self) -> None:
         """Start the workers, check idle workers, and replace lost workers.
 
-        The first worker starts alone, so that it is ready soon. Idle workers are checked all at the same time, because
-        AnyIO gives single checks to the same worker, and ends workers that are not used.
+        The first worker starts alone, so that it is ready soon. All idle workers are checked at the same time. AnyIO
+        would give successive checks to the same worker, and end the other workers.
         """
         count = 1
         while True:
@@ -167,7 +167,7 @@ class Pool:
 
 
 async def unless_gone(http: Request, work: Outcome, deadline_s: float | None = None) -> Any:
-    """Wait for `work` and return its result. If the client leaves or the deadline passes, cancel the work and raise."""
+    """Return the result of `work`. If the client leaves or the deadline passes, cancel `work` and raise an error."""
     departure = asyncio.create_task(_departure(http))
     try:
         await asyncio.wait({work, departure}, timeout=deadline_s, return_when=asyncio.FIRST_COMPLETED)

@@ -31,14 +31,14 @@ class StartUp:
         return [name for name, percent in self._percent.items() if percent == 100]
 
     def require(self, *endpoints: str) -> None:
-        """Raise WarmingUp if the stage of one of the endpoints is not ready; without endpoints, if any stage is not."""
+        """Raise WarmingUp if the stage of an endpoint is not ready. Without endpoints, all stages are required."""
         needed = {BY_PATH[endpoint].stage.name for endpoint in endpoints} or {*self._percent}
         if not needed <= {*self.warm}:
             report = ", ".join(f"{name} {percent} %" for name, percent in self._percent.items())
             raise WarmingUp(f"Kernels are being compiled, once after installation: {report}")
 
     async def run(self) -> None:
-        """Compile all stages, if need be once more in an empty folder, then open all endpoints in any case."""
+        """Compile all stages, then open all endpoints. If a process dies, compile once more in an empty folder."""
         began = time.monotonic()
         if FOLDER is not None and not await self._compile(STAGES):
             logger.warning("a process that compiled kernels died: all are compiled anew")

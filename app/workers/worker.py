@@ -1,4 +1,4 @@
-"""The functions that run in a worker process: the preparation of the process, and the execution of calls."""
+"""The functions that run in a worker process: `prepare` prepares the process, and `perform` executes calls."""
 
 import gc
 import logging
@@ -19,12 +19,12 @@ from typing import Any
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 
 _notes = BufferingHandler(sys.maxsize)
-"""Handler that keeps log records for the answer of the call, because nobody reads a worker's standard error."""
+"""Keeps the log records of a call. The answer contains them, because a worker's standard error is not read."""
 
 
 @lru_cache(maxsize=1)
 def prepare(memory_bytes: int, modules: Sequence[str]) -> int:
-    """Prepare this process for calls and return its identifier. Only the first call loads modules and limits memory."""
+    """Load modules and limit the memory, once, and return the identifier of this process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # ignored here, because Ctrl-C reaches every process of the terminal
     os.environ.update(ONE_THREAD)  # before numpy is loaded
     threading.Thread(target=_end_with_the_service, args=(os.getppid(),), daemon=True).start()

@@ -109,7 +109,7 @@ def test_the_input_is_not_echoed(client: httpx.Client) -> None:
 
 
 def own_fields(calculation: Calculation) -> list[str]:
-    """The fields to be varied. For a warm-up: cooling, and what the same unit in equilibrium does not have."""
+    """Return the fields to vary. For a warm-up, these are `cooling` and the fields that the drive train lacks."""
     unit = BY_PATH["/v1/drive-train"]
     others = number_fields(unit.request) if calculation.path.startswith(f"{unit.path}/") else []
     return [path for path in number_fields(calculation.request) if path not in others or path.startswith("cooling.")]

@@ -18,9 +18,9 @@ from app.workers.worker import perform, prepare
 
 
 class Processes:
-    """Stands for AnyIO's processes: calls are answered when a test says so, starts as they are scripted.
+    """Stand-in for AnyIO's processes. A test scripts how processes start and when calls are answered.
 
-    As with AnyIO, a call goes to the process that was used last of the idle ones, or starts one if none is idle.
+    As in AnyIO, a call goes to the idle process that was used last. If no process is idle, the call starts a process.
     """
 
     def __init__(self) -> None:
@@ -205,7 +205,7 @@ def test_a_worker_that_does_not_start_is_started_again(
 def test_a_call_does_not_wait_for_the_start_of_a_worker_if_another_worker_is_free(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """The deadline of a study's call begins when a worker takes the call, so it must not pass during a start."""
+    """The deadline of a study's call must not include the start of a worker."""
 
     async def check(pool: Pool, processes: Processes) -> None:
         assert pool.alive == 1
@@ -222,7 +222,7 @@ def test_a_call_does_not_wait_for_the_start_of_a_worker_if_another_worker_is_fre
 
 
 def test_idle_workers_are_checked_all_at_the_same_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    """AnyIO would give checks one after the other to the same worker, and drop the other one."""
+    """AnyIO would give successive checks to the same worker, and end the other worker."""
 
     async def check(pool: Pool, processes: Processes) -> None:
         await asyncio.sleep(0.5)
@@ -235,7 +235,7 @@ def test_idle_workers_are_checked_all_at_the_same_time(monkeypatch: pytest.Monke
 
 
 def test_a_lost_worker_is_replaced_while_another_one_is_idle(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The check of the idle worker must not stand for the new one."""
+    """A check that reaches the idle worker does not replace the lost worker."""
 
     async def check(pool: Pool, processes: Processes) -> None:
         await asyncio.sleep(0.2)

@@ -54,7 +54,7 @@ STEPS = (1, 2, 2.5, 5, 10)  # permitted distances between ticks, to be multiplie
 NUMBERS = FuncFormatter(lambda value, _: number(value, digits=6))
 
 Style = dict[str, Any]  # keyword arguments of matplotlib's artists
-# A dark edge on both sides of a curve, so that the curve is seen on every colour of a map.
+# A dark edge on both sides of a curve makes the curve visible on every colour of a map.
 OUTLINE: Style = {"path_effects": [withStroke(linewidth=3.2, foreground="#12171f", alpha=0.75)]}
 
 
@@ -427,7 +427,7 @@ def place_texts(axes: Axes, panel: Panel) -> None:
         text.set(ha="center", va="center")
         size, room, at = text.get_window_extent(), axes.bbox, _point_of(text)
         # The cost of a position is a sum. It counts the overlapped texts, the hidden parts of curves, the length of the
-        # text outside the axes, the distance from the point, and whether the text seems to belong to something else.
+        # text outside the axes, the distance from the point, and whether the text seems to name another point or line.
         costs = {}
         for place, distance in _places(str(text.get_gid()), size, room, point):
             box = size.translated(*place)
@@ -451,7 +451,7 @@ def place_texts(axes: Axes, panel: Panel) -> None:
 
 
 def _point_of(text: Text) -> Values:
-    """Return the point or the end of the line that a text names, in pixels."""
+    """Return the position [pixels] of the point that a text names, or of the end of the line that a text names."""
     assert isinstance(text, Annotation)
     coordinates: Any = text.xycoords
     axes = text.axes

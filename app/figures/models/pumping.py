@@ -43,7 +43,7 @@ def pressure_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def mach_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the axial Mach number without the direction of the flow. A contour shows where the flow is sonic."""
+    """Draw the magnitude of the axial Mach number. A contour shows where the flow is sonic."""
     panels = _maps(inputs, result, "axial_mach", Scale.MAGNITUDE, Level(1.0, "sonic"))
     peak = max(space.peak_axial_mach for _, space in spaces(result))
     choked = [gear for gear, space in spaces(result) if space.axial_choked]

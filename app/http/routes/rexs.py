@@ -114,7 +114,7 @@ async def open_unit(http: Request) -> Response:
 
 @pages.get("/rexs/{name}", response_class=HTMLResponse)
 async def show_unit(http: Request, name: str) -> Response:
-    """Show the stages, the findings and the links of a unit, as long as the page of the unit is kept."""
+    """Show the page of a unit: its stages, findings and links. Answer 410 if the page is no longer kept."""
     shown = http.app.state.answers.get(_key(root_of(http), name))
     if shown is None:
         reason = "The service keeps such a page for a short time only. This page no longer exists; open the file again."
