@@ -12,7 +12,7 @@ from app.calculations import BY_PATH
 from app.examples import examples
 from app.pages.query import link, pairs_of
 from tests.rexs.units import turbo_unit
-from tests.support.browsing import DESK, PHONE, address_of, overflow, violations
+from tests.support.browsing import DESK, PHONE, address_of, hold_scripts, overflow, violations
 from tests.support.lists import LISTS
 
 pytestmark = pytest.mark.service
@@ -64,6 +64,29 @@ def test_live_result_keeps_what_is_typed_and_the_latest_wins(visit: Callable[...
     assert field.input_value() == "4500"
     mean = float(value_of(page, "load_distribution.mean_tangential_force_n").replace(" ", ""))
     assert mean == pytest.approx(4500 / 0.078 / 52, rel=1e-3)
+
+
+def test_what_is_typed_before_the_script_arrives_is_calculated(visit: Callable[..., Page]) -> None:
+    page = visit("/")
+    arrive = hold_scripts(page)
+    page.goto(address_of(COUPLING), wait_until="commit")
+    page.locator('[name="operation.torque_n_m"]').fill("4500")
+    arrive()
+    expect(page).to_have_url(re.compile("torque_n_m=4500"))
+    mean = float(value_of(page, "load_distribution.mean_tangential_force_n").replace(" ", ""))
+    assert mean == pytest.approx(4500 / 0.078 / 52, rel=1e-3)
+
+
+def test_an_example_chosen_before_the_script_arrives_is_opened_and_can_be_left(visit: Callable[..., Page]) -> None:
+    page = visit("/")
+    arrive = hold_scripts(page)
+    page.goto("/coupling", wait_until="commit")
+    page.get_by_label("Example").select_option(COUPLING)
+    arrive()
+    expect(page.locator(".card").first).to_be_visible()
+    page.go_back(wait_until="load")
+    page.wait_for_timeout(1000)
+    assert page.url.endswith("/coupling")
 
 
 def test_follow_a_warning_to_its_field(visit: Callable[..., Page]) -> None:

@@ -9,7 +9,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from app.pages.study_links import STUDIES
-from tests.support.browsing import address_of
+from tests.support.browsing import address_of, hold_scripts
 from tests.support.server import wait_for_metric
 
 pytestmark = pytest.mark.service
@@ -42,6 +42,20 @@ def test_from_a_case_to_a_curve_and_back_to_the_case_of_a_point(visit: Callable[
     assert float(chosen) == pytest.approx(float(re.findall(r"misalignment ([\d.]+)", said)[0]), rel=1e-4)
     thrust = "".join(page.locator('[data-path="axial_thrust.design_force_n"]').inner_text().split())
     assert float(thrust) == pytest.approx(float(re.findall(r"thrust to be held ([\d.]+)", said)[0]), rel=1e-3)
+
+
+def test_a_quantity_chosen_before_the_script_arrives_is_varied_and_the_page_can_be_left(
+    visit: Callable[..., Page],
+) -> None:
+    page = visit("/")
+    arrive = hold_scripts(page)
+    page.goto(address_of(COUPLING, "/vary"), wait_until="commit")
+    page.locator("select[name=x]").select_option("operation.misalignment_deg")
+    arrive()
+    expect(page.locator(".frame .chart img").last).to_be_visible()
+    page.go_back(wait_until="load")
+    page.wait_for_timeout(1000)
+    assert "&x=" not in page.url
 
 
 def test_the_figure_grows_while_points_come_and_stop_ends_it(visit: Callable[..., Page], server: str) -> None:

@@ -1,7 +1,9 @@
 """What tests in a browser share: addresses of examples, sideways scrolling, the accessibility checker."""
 
+from collections.abc import Callable
+
 from axe_playwright_python.sync_playwright import Axe
-from playwright.sync_api import Page
+from playwright.sync_api import Page, Route
 
 from app.calculations import BY_PATH
 from app.examples import examples
@@ -21,6 +23,19 @@ def overflow(page: Page) -> int:
     """By how much a page is wider than its window."""
     width: int = page.evaluate("document.scrollingElement.scrollWidth - window.innerWidth")
     return width
+
+
+def hold_scripts(page: Page) -> Callable[[], None]:
+    """Hold back the scripts of the pages opened from now on. The returned function lets the scripts arrive."""
+    held: list[Route] = []
+    page.route("**/*.js*", lambda route: held.append(route))
+
+    def arrive() -> None:
+        for route in held:
+            route.continue_()
+        page.unroute("**/*.js*")
+
+    return arrive
 
 
 def violations(page: Page) -> list[tuple[str, str]]:

@@ -9,7 +9,7 @@ const long = Number(document.querySelector(".work").dataset.long);
 let timer = 0;
 let running = null;
 let pressed = false; // whether the button Calculate was pressed while a request was running
-let shown = caseOf(form);
+let shown = caseOf(new DOMParser().parseFromString(form.outerHTML, "text/html").forms[0]); // without what was typed before this script arrived
 
 function pairsOf(element) {
   const picked = new Map([...element.querySelectorAll("input[type=radio]:checked")].map((radio) => [radio.name, radio.value]));
@@ -204,7 +204,13 @@ document.addEventListener("click", (event) => {
   const link = event.target.closest("a[href^='#']");
   if (link) { event.preventDefault(); goTo(link.getAttribute("href")); }
 });
-document.getElementById("example").addEventListener("change", (event) => { if (event.target.value) event.target.form.submit(); });
+const example = document.getElementById("example");
+const openExample = () => { if (example.value) example.form.submit(); };
+example.addEventListener("change", openExample);
 window.addEventListener("resize", keepClear);
 form.querySelectorAll("textarea[data-count]").forEach(count);
 prepareResult();
+// Users may type or choose before this script arrives.
+form.querySelectorAll("input[type=text], textarea").forEach((control) => { if (control.value !== control.defaultValue) clearFellows(control); });
+schedule();
+openExample();

@@ -13,13 +13,15 @@ document.addEventListener("click", (event) => {
   document.getElementById("state").textContent = "Stopped. The points calculated so far are shown.";
 });
 
-document.addEventListener("change", (event) => {
-  event.target.parentElement.querySelector(".chosen")?.remove();
-  const axis = event.target.matches("select[name=x], select[name=y]") ? event.target.name : null;
+document.addEventListener("change", (event) => choose(event.target));
+
+function choose(control) {
+  control.parentElement.querySelector(".chosen")?.remove();
+  const axis = control.matches("select[name=x], select[name=y]") ? control.name : null;
   if (!axis) return;
   for (const part of ["from", "to", "scale"]) document.getElementById(`f.${axis}.${part}`).value = "";
-  if (document.querySelector("select[name=x]").value) event.target.form.requestSubmit();
-});
+  if (document.querySelector("select[name=x]").value) control.form.requestSubmit();
+}
 
 function watch() {
   if (!loading) return;
@@ -105,6 +107,10 @@ function rounded(value) {
   return typeof value === "number" ? Number(value.toPrecision(5)) : value;
 }
 
+// Users may choose before this script arrives.
+for (const select of document.querySelectorAll("select[name=x], select[name=y]")) {
+  if (select.value !== (select.querySelector("[selected]") ?? select.options[0]).value) choose(select);
+}
 watch();
 if (document.readyState === "complete") finish();
 else window.addEventListener("load", finish);
