@@ -28,7 +28,7 @@ def overflow(page: Page) -> int:
 def hold_scripts(page: Page) -> Callable[[], None]:
     """Hold back the scripts of the pages opened from now on. The returned function lets the scripts arrive."""
     held: list[Route] = []
-    page.route("**/*.js*", lambda route: held.append(route))
+    page.route("**/*.js*", lambda route: held.append(route))  # noqa: PLW0108  a built-in method cannot carry the mark of Playwright
 
     def arrive() -> None:
         for route in held:
