@@ -28,7 +28,8 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 
 @pytest.fixture
 def without_images(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Images of a report's figures are empty, where its texts alone are read."""
+    """Figures of a report are neither laid out nor drawn, where its texts alone are read."""
+    monkeypatch.setattr("app.figures.drawing.image.narrowed", lambda figure: figure)
     monkeypatch.setattr("app.pages.charts.written", lambda *_: b"")
 
 

@@ -130,7 +130,13 @@ def leaf_at(model: type[Documented], path: str) -> Leaf | None:
     In the path, the index of a list item may be a number or `*`.
     """
     wanted = ".".join(ITEM if part.isdecimal() else part for part in path.split("."))
-    return next((leaf for leaf in leaves(model) if leaf.path == wanted), None)
+    return _leaf_of(model).get(wanted)
+
+
+@cache
+def _leaf_of(model: type[Documented]) -> dict[str, Leaf]:
+    """Return all leaves. The keys are the paths of the leaves."""
+    return {leaf.path: leaf for leaf in leaves(model)}
 
 
 @cache
