@@ -17,7 +17,7 @@ KinematicModel = Literal["tangential", "spatial"]
 SleeveSupport = Literal["centred", "floating"]
 InletModel = Literal["face", "travel", "infinite"]
 
-MAX_MISALIGNMENT = radians(6.0)  # chosen: at this angle a theory of small angles errs by half a percent
+MAX_MISALIGNMENT = radians(6.0)  # chosen: the error of first-order theory, of order delta^2, is 1 % here
 LEAST_TORQUE = 1e-6  # N m, chosen: a smaller torque is not accepted as a load
 STEEL = 206e9  # Pa, Young's modulus for which ISO 6336-1 states the tooth stiffness
 STEEL_TOOTH_STIFFNESS = 280e6  # N/m, of a pair of steel teeth

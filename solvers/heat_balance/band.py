@@ -50,8 +50,8 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
     Returns
     -------
     Network
-        The network with the wetting share, rewetting share and fling-off factor of this end; flow and losses are
-        unchanged.
+        The network with the wetting share, rewetting share and fling-off factor of this end. The flow and the laws of
+        the losses are unchanged.
 
     Notes
     -----
