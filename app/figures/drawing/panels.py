@@ -312,7 +312,8 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
     for levels, style in (({*ticks} - {*critical, still}, thin), ({*critical}, strong)):
         inside = sorted(level for level in levels if shown.min() < level < shown.max())
         if inside:
-            axes.contour(x, y, shown, inside, negative_linestyles="solid", **style)
+            contours = axes.contour(x, y, shown, inside, negative_linestyles="solid", **style)
+            contours.set(**OUTLINE if style is strong and still is None else {})
     if not chart.bar:
         bar.ax.remove()
         return
@@ -322,7 +323,7 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
     bar.ax.yaxis.set_ticks(list(critical), list(critical.values()), minor=True)
     bar.ax.tick_params(which="minor", labelcolor=LIMIT)
     for value in critical:
-        bar.ax.axhline(value, color=LIMIT, linewidth=1.6, linestyle=(0, (2, 1)))
+        bar.ax.axhline(value, color=LIMIT, linewidth=1.6, linestyle=(0, (2, 1)), **OUTLINE)
 
 
 def _edges(along: Values, log: bool) -> Values:
