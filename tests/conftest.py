@@ -29,8 +29,7 @@ def pytest_sessionstart(session: pytest.Session) -> None:
 @pytest.fixture
 def without_images(monkeypatch: pytest.MonkeyPatch) -> None:
     """Figures of a report are neither laid out nor drawn, where its texts alone are read."""
-    monkeypatch.setattr("app.figures.drawing.image.narrowed", lambda figure: figure)
-    monkeypatch.setattr("app.pages.charts.written", lambda *_: b"")
+    monkeypatch.setattr("app.figures.drawing.image.draw_for_report", lambda figure: (figure, b""))
 
 
 @pytest.fixture(scope="session")

@@ -103,8 +103,8 @@ def embedded(name: str, figure: Figure, theme: ThemeName | None) -> Chart:
         name=name,
         title=figure.title,
         subtitle=figure.subtitle,
-        image=data_address(figure, theme or "light"),
-        dark="" if theme else data_address(figure, "dark"),
+        image=_data_address(written(figure, "svg", theme or "light")),
+        dark="" if theme else _data_address(written(figure, "svg", "dark")),
         size=_pixels(figure),
         content=json.dumps({"panels": _panels(figure)}),
         table=_table(figure),
@@ -118,27 +118,31 @@ def _pixels(figure: Figure) -> tuple[int, int]:
     return round(PIXELS * width), round(PIXELS * height)
 
 
-def data_address(figure: Figure, theme: ThemeName = "light") -> str:
-    """Return an address of the scheme `data:` that contains the image of a figure."""
-    return "data:image/svg+xml;base64," + base64.b64encode(written(figure, "svg", theme)).decode()
+def _data_address(image: bytes) -> str:
+    """Return an address of the scheme `data:` that contains an image in the format svg."""
+    return "data:image/svg+xml;base64," + base64.b64encode(image).decode()
 
 
-def in_columns(figures: Iterable[Figure]) -> list[Figure]:
-    """Narrow the figures to the columns of a report, and return them in the order of the report.
+def in_columns(figures: Iterable[Figure]) -> list[tuple[Figure, str]]:
+    """Draw the figures for the columns of a report. Return figures and images in the order of the report.
 
-    The report has two columns. Figures that fit into a column come first, in pairs. The first figure of a pair is the
-    next figure in the given order. The second figure of the pair is the remaining figure whose height is nearest to the
-    height of the first figure. Figures that need the whole width are not narrowed and come last.
+    Images are addresses of the scheme `data:`. The report has two columns. Figures that fit into a column come first,
+    in pairs. The first figure of a pair is the next figure in the given order. The second figure of the pair is the
+    remaining figure whose height is nearest to the height of the first figure. Figures that need the whole width come
+    last.
     """
-    from app.figures.drawing.image import narrowed, size  # noqa: PLC0415  only workers draw
+    from app.figures.drawing.image import draw_for_report, size  # noqa: PLC0415  only workers draw
 
-    placed = [narrowed(figure) for figure in figures]
-    left, ordered = [(size(figure)[1], figure) for figure in placed if figure.narrow], list[Figure]()
+    placed = [(drawn, _data_address(image)) for drawn, image in map(draw_for_report, figures)]
+    left, ordered = [each for each in placed if each[0].narrow], list[tuple[Figure, str]]()
     while left:
-        height, figure = left.pop(0)
-        nearest = min(range(len(left)), key=lambda place: abs(left[place][0] - height), default=None)
-        ordered += [figure] if nearest is None else [figure, left.pop(nearest)[1]]
-    return ordered + [figure for figure in placed if not figure.narrow]
+        first = left.pop(0)
+        ordered.append(first)
+        if left:
+            height = size(first[0])[1]
+            nearest = min(range(len(left)), key=lambda place: abs(size(left[place][0])[1] - height))
+            ordered.append(left.pop(nearest))
+    return ordered + [each for each in placed if not each[0].narrow]
 
 
 def values_of(figure: Figure) -> bytes:

@@ -11,7 +11,7 @@ from app.calculations import CALCULATIONS, Calculation
 from app.examples import Example, examples
 from app.figures import MEDIA_TYPES
 from app.manual.results import place_of
-from app.pages.charts import data_address, in_columns
+from app.pages.charts import in_columns
 from app.pages.form import anchor, link_to, title_of
 from app.pages.query import link, pairs_of
 from app.pages.typesetting import cited, shown, symbol, typeset, words
@@ -90,5 +90,5 @@ def _environment(root: str) -> Environment:
         "place_of": place_of,
     }
     environment.filters |= {"cited": cited, "shown": shown, "symbol": symbol, "typeset": typeset, "words": words}
-    environment.filters |= {"image": data_address, "columns": in_columns, "url": url}
+    environment.filters |= {"columns": in_columns, "url": url}
     return environment

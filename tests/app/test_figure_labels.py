@@ -35,7 +35,7 @@ from app.figures.data import (
     ThemeName,
     values,
 )
-from app.figures.drawing.image import draw, laid_out, narrowed, places
+from app.figures.drawing.image import draw, draw_for_report, laid_out, places
 from app.figures.drawing.style import NARROW, themed, written
 from app.figures.studies import Influence, corners, influence
 
@@ -115,13 +115,14 @@ def test_no_text_of_an_example_is_cut_or_over_another(name: str) -> None:
 def test_a_figure_in_a_column_of_a_report_has_no_collisions() -> None:
     """One that would have some keeps the whole width."""
     figure = Figure("a finding", (PANEL,), title="two peaks")
-    narrow = narrowed(figure)
+    narrow, image = draw_for_report(figure)
     assert narrow.narrow
     assert not list(faults(narrow))
+    assert image == draw(narrow, "svg")
     name = "a limit with a name that is far too long for the width of a column of a report, and then some"
     long = replace(PANEL, levels=(Level(1.5, name),))
-    assert not narrowed(Figure("a finding", (long,), title="two peaks")).narrow
-    assert not narrowed(replace(figure, beside=True)).narrow
+    for wide in (Figure("a finding", (long,), title="two peaks"), replace(figure, beside=True)):
+        assert draw_for_report(wide) == (wide, draw(wide, "svg"))
 
 
 @pytest.mark.parametrize("narrow", [False, True])

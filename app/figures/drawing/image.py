@@ -44,11 +44,30 @@ def draw(figure: Figure, image_format: str, theme: ThemeName = "light") -> bytes
     """Draw a figure as svg, png or pdf."""
     with themed(theme):
         sheet, _ = laid_out(figure)
-        sheet.set_dpi(DPI[image_format])
-        image, metadata = BytesIO(), METADATA[image_format] | {"Title": figure.title}
-        canvas: Any = CANVASES[image_format](sheet)
-        getattr(canvas, f"print_{image_format}")(image, metadata=metadata)  # `savefig` would draw everything twice
-        return image.getvalue()
+        return _written(sheet, figure.title, image_format)
+
+
+def draw_for_report(figure: Figure) -> tuple[Figure, bytes]:
+    """Draw a figure as svg in the width of a report's column. Return the figure in the width that is drawn.
+
+    The figure keeps its usual width if its panels stand side by side, or if its texts would collide in the column.
+    """
+    with themed("light"):
+        if not figure.beside:
+            narrow = replace(figure, narrow=True)
+            sheet, axes = laid_out(narrow)
+            if not _collides(sheet, axes):
+                return narrow, _written(sheet, figure.title, "svg")
+        return figure, draw(figure, "svg")
+
+
+def _written(sheet: Sheet, title: str, image_format: str) -> bytes:
+    """Write a sheet that is laid out, as svg, png or pdf."""
+    sheet.set_dpi(DPI[image_format])
+    image, metadata = BytesIO(), METADATA[image_format] | {"Title": title}
+    canvas: Any = CANVASES[image_format](sheet)
+    getattr(canvas, f"print_{image_format}")(image, metadata=metadata)  # `savefig` would draw everything twice
+    return image.getvalue()
 
 
 class Place(NamedTuple):
@@ -165,33 +184,22 @@ def laid_out(figure: Figure) -> tuple[Sheet, list[Axes]]:
     return sheet, axes
 
 
-def narrowed(figure: Figure) -> Figure:
-    """Return the figure in the width of a report's column.
-
-    The figure is returned unchanged if its panels stand side by side, or if its texts would collide in this width.
-    """
-    narrow = replace(figure, narrow=True)
-    return figure if figure.beside or _collides(narrow) else narrow
-
-
-def _collides(figure: Figure) -> bool:
-    """Return True if a text of the figure is cut off or overlaps another text."""
-    with themed("light"):
-        sheet, axes = laid_out(figure)
-        sheet.draw_without_rendering()  # places the names of axes and the legends
-        texts = list[Text]()
-        for panel_axes in axes:
-            texts += [*panel_axes.texts, panel_axes.title, panel_axes.xaxis.label, panel_axes.yaxis.label]
-            for axis in (panel_axes.xaxis, panel_axes.yaxis):
-                low, high = sorted(axis.get_view_interval())
-                texts += [tick.label1 for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high]
-            texts += legend.get_texts() if (legend := panel_axes.get_legend()) else []
-        boxes = [text.get_window_extent() for text in (*sheet.texts, *texts) if text.get_visible() and text.get_text()]
-        right, top = sheet.bbox.x1, sheet.bbox.y1
-        if any(box.x0 < 0.0 or box.y0 < 0.0 or box.x1 > right or box.y1 > top for box in boxes):
-            return True
-        overlaps = (Bbox.intersection(first, second) for first, second in combinations(boxes, 2))
-        return any(overlap and min(overlap.width, overlap.height) > TOUCH * sheet.dpi for overlap in overlaps)
+def _collides(sheet: Sheet, axes: list[Axes]) -> bool:
+    """Return True if a text of a sheet that is laid out is cut off or overlaps another text."""
+    sheet.draw_without_rendering()  # places the names of axes and the legends
+    texts = list[Text]()
+    for panel_axes in axes:
+        texts += [*panel_axes.texts, panel_axes.title, panel_axes.xaxis.label, panel_axes.yaxis.label]
+        for axis in (panel_axes.xaxis, panel_axes.yaxis):
+            low, high = sorted(axis.get_view_interval())
+            texts += [tick.label1 for tick in axis.get_major_ticks() if low <= tick.get_loc() <= high]
+        texts += legend.get_texts() if (legend := panel_axes.get_legend()) else []
+    boxes = [text.get_window_extent() for text in (*sheet.texts, *texts) if text.get_visible() and text.get_text()]
+    right, top = sheet.bbox.x1, sheet.bbox.y1
+    if any(box.x0 < 0.0 or box.y0 < 0.0 or box.x1 > right or box.y1 > top for box in boxes):
+        return True
+    overlaps = (Bbox.intersection(first, second) for first, second in combinations(boxes, 2))
+    return any(overlap and min(overlap.width, overlap.height) > TOUCH * sheet.dpi for overlap in overlaps)
 
 
 def _symbol(letter: str, subscript: str) -> str:
