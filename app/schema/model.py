@@ -123,7 +123,10 @@ class Documented(BaseModel):
         cls.__annotations__ = filled | {name: kind for name, kind in own.items() if name not in filled}
         if stands and cls._stands and records and not only and not without:
             if (other := _MODELS.get((cls._declares, records[0]), cls)) is not cls:
-                raise TypeError(f"{other.__name__} and {cls.__name__} both stand for {records[0].__name__}")
+                raise TypeError(
+                    f"{other.__name__} and {cls.__name__} are both the model of {records[0].__name__}; "
+                    "declare one of them with stands=False"
+                )
             _MODELS[cls._declares, records[0]] = cls
 
     @classmethod

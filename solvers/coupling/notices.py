@@ -111,7 +111,7 @@ def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication:
     if lubrication.hertz_half_width > half_face:
         yield Notice(
             "wide_contact",
-            "even without travel, the contact is wider than the tooth face",
+            "the contact is wider than the tooth face, even if the contact does not move along the tooth",
             "face_width",
             rank="invalid",
         )

@@ -214,8 +214,8 @@ def path_notices(
             Notice(
                 "unsolved_points",
                 f"{status.count('no_solution')} of {len(status)} points have no solution and {status.count('refused')} "
-                f"are outside the range of the model. Any of {unknown} of these points could have the extreme value. "
-                "Therefore no largest flash temperature, thinnest film or safety is stated",
+                f"are outside the range of the model. The largest flash temperature or the thinnest film could be at "
+                f"{unknown} of these points, so neither is stated, and no safety",
                 rank="invalid",
             )
         )
