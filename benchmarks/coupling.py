@@ -1,4 +1,6 @@
-"""Times of the gear coupling: one mesh, two meshes on one sleeve, the sleeve's orbit, the recommended crowning.
+"""Print the run times of the gear coupling.
+
+The table has rows for one mesh, two meshes on one sleeve, the orbit of the sleeve, and the recommended crowning.
 
 Run from the project's root: python -m benchmarks.coupling [--against REVISION]
 """
@@ -22,12 +24,12 @@ UNEVEN = replace(DESIGN, coupling=replace(DESIGN.coupling, pitch_errors=PITCH_ER
 
 
 def offset(inputs: CouplingInputs) -> CouplingInputs:
-    """Return the same coupling between parallel shafts."""
+    """Return the inputs of the same coupling between two shafts with a parallel offset."""
     return replace(inputs, operation=replace(inputs.operation, arrangement="parallel_offset"))
 
 
 def at(inputs: CouplingInputs, misalignment_deg: float, speed: float) -> CouplingInputs:
-    """Return the same coupling at another misalignment and speed [rad/s]."""
+    """Return the inputs of the same coupling at another misalignment [deg] and another speed [rad/s]."""
     return replace(inputs, operation=replace(inputs.operation, misalignment=radians(misalignment_deg), speed=speed))
 
 

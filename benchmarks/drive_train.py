@@ -1,7 +1,8 @@
-"""Time of an answer of the drive train, alone and in its studies, for the worked example.
+"""Print the run times of the drive train and of its studies for the worked example.
 
-Run from the project's root: python -m benchmarks.drive_train. Kernels are warm and the pumped gas is known but where it
-says otherwise; the best of several repeats counts.
+Run from the project's root: python -m benchmarks.drive_train. The kernels are warm. The results of the pumped gas are
+cached, except in the row "pumped gas". Each printed time is the shortest of 20 runs of the solver, of 3 runs of the
+pumped gas, or the time of one run of a study.
 """
 
 import asyncio
@@ -30,7 +31,10 @@ USUAL = list(usual_corners(BY_PATH["/v1/drive-train"].request.model_validate(REQ
 
 
 def best(run: Callable[[], object], repeats: int = REPEATS) -> float:
-    """Return the shortest of the repeats [s], after one run that warms the kernels: other work only adds time."""
+    """Return the shortest time of the repeated runs [s].
+
+    One run before the repeated runs warms the kernels. The shortest time counts, because other work only adds time.
+    """
     run()
     times = []
     for _ in range(repeats):
@@ -41,13 +45,13 @@ def best(run: Callable[[], object], repeats: int = REPEATS) -> float:
 
 
 def solve_gas() -> None:
-    """Solve the pumped gas again, without its cache."""
+    """Clear the cache of the pumped gas, and compute the pumped gas again."""
     gas_heat.cache_clear()
     gas_heat(INPUTS.pumping, SPEED)
 
 
 def corners() -> None:
-    """Solve 256 runs, one after another: the usual corners and two heights of tip relief."""
+    """Solve the 128 usual corners at two heights of tip relief (256 runs), one run after another."""
     ranges = [
         *(axis.model_dump(exclude_none=True) for axis in USUAL),
         {"path": "modifications.tip_relief_um", "values": [12, 18]},
@@ -56,12 +60,12 @@ def corners() -> None:
 
 
 def search() -> None:
-    """Run the example's design search: 12 corners, 3 variables."""
+    """Run the design search of the example, with 12 corners and 3 variables."""
     run(Design, {**EXAMPLES["/v1/drive-train/design"]["robust"]["value"], "request": REQUEST})
 
 
 def run(study_of: Callable[[Any, int, float], Study], body: dict[str, Any]) -> None:
-    """Solve a study in this process."""
+    """Run the study with this body in this process, and discard the lines of the study."""
 
     async def lines() -> None:
         study = study_of(body, 2500, 60.0)
@@ -72,7 +76,7 @@ def run(study_of: Callable[[Any, int, float], Study], body: dict[str, Any]) -> N
 
 
 def main() -> None:
-    """Print the table."""
+    """Measure the run times, and print them in a table beside the targets."""
     start = outcome(INPUTS).gap
     print(f"{'figure':<52}{'measured':>12}{'target':>12}")
     rows: list[tuple[str, Callable[[], object], int, float, str]] = [

@@ -1,4 +1,7 @@
-"""Times of the line contact: isothermal, thermal from nothing and along the path of gear pair 1, median of the grid.
+"""Print the run times of the line contact.
+
+The table has rows for single points that are solved without a start value, isothermal and thermal, for paths of contact
+of gear pair 1, and for the median over a grid of 200 points.
 
 Run from the project's root: python -m benchmarks.ehl [--against REVISION]
 """
@@ -23,7 +26,7 @@ ISOTHERMAL = Model(thermal=False, rheology="newtonian")
 
 
 def path(model: Model, points: int = 50) -> list[LineContactInputs]:
-    """Return gear pair 1 from A to E at 273 N/mm."""
+    """Return contacts of gear pair 1 from A to E of the path of contact, at a line load of 273 N/mm."""
     pair = gear_pair(
         GearPairInputs(
             GearTeeth(23),
@@ -47,7 +50,7 @@ def path(model: Model, points: int = 50) -> list[LineContactInputs]:
 
 
 def figures() -> Iterator[Figure | MedianFigure]:
-    """Yield the rows of the table."""
+    """Yield a `Figure` or `MedianFigure` for each row of the printed table."""
     for name, model, target in (
         ("isothermal Newtonian point, 121 nodes", ISOTHERMAL, 6.0),
         ("isothermal Ree-Eyring point, 121 nodes", replace(EYRING, thermal=False), 6.0),

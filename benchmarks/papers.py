@@ -1,4 +1,7 @@
-"""python -m benchmarks.papers: what papers, books and standards say beside what is computed."""
+"""Print the numbers of papers, books and standards beside the computed numbers.
+
+Run from the project's root: python -m benchmarks.papers
+"""
 
 from solvers.published import STATEMENTS, Row
 
@@ -6,7 +9,7 @@ COLUMNS = ("statement", "source", "printed", "computed", "unit", "deviation", "r
 
 
 def main() -> None:
-    """Print one table per model."""
+    """Print one table of published and computed numbers per model."""
     for model, statements in STATEMENTS.items():
         print(f"\n## {model}\n")
         print("| " + " | ".join(COLUMNS) + " |")

@@ -1,4 +1,4 @@
-"""Times of pumping: geometry table, flow models, choking search.
+"""Print the run times of the pumping model: geometry table, flow models, and search for choking speeds.
 
 Run from the project's root: python -m benchmarks.pumping [--against REVISION]
 """
@@ -21,13 +21,13 @@ ONE_SET = PumpingModel(spaces=Spaces.PINION)
 
 
 def operating_point(gears: GearPairInputs, rpm: float, model: PumpingModel) -> Callable[[], object]:
-    """Return a function that solves one set of spaces."""
+    """Return a function that solves the pumping of a gear pair at this speed of the pinion [1/min]."""
     inputs = PumpingInputs(PumpingSetup(gears, model=model), rpm * pi / 30)
     return lambda: solve(inputs)
 
 
 def figures() -> tuple[Figure, ...]:
-    """Return the rows of the table."""
+    """Return a `Figure` for each row of the printed table."""
     space = tooth_space(gear_pair(CASE_1), 0.3e-3, Gap.CONTACT, of_pinion=True)
     chain = replace(ONE_SET, flow=Flow.POCKET_CHAIN)
     search = ChokingInputs(PumpingSetup(CASE_1, model=ONE_SET), 60000 * pi / 30)

@@ -1,8 +1,9 @@
-"""Random valid requests to every endpoint, ends of ranges included: no exception, no NaN or infinity, no late answer.
+"""Solve random requests to every endpoint, and report exceptions, NaN, infinity and late answers.
 
-The requests are solved in this process: python -m benchmarks.random_requests --count 100000. Each request has its own
-seed, which is printed if the request fails; --seed with --count 1 repeats this request. Endpoints that take a hundred
-times longer are asked more rarely, because they would take all the time.
+The requests fit the schema; some values are ends of their ranges. The requests are solved in this process. Run from the
+project's root: python -m benchmarks.random_requests --count 100000. Each request has its own seed. The seed is printed
+if the request fails or is late; --seed with --count 1 repeats this request. Slow endpoints get fewer requests, because
+their requests would otherwise take most of the time.
 """
 
 import argparse
@@ -38,20 +39,20 @@ Schema = dict[str, Any]
 
 
 class Draw:
-    """Draws values that a JSON schema allows."""
+    """A generator of random values for a JSON schema."""
 
     def __init__(self, document: Schema, choice: random.Random) -> None:
         self._document = document
         self._choice = choice
 
     def resolved(self, schema: Schema) -> Schema:
-        """Return the schema behind a reference."""
+        """Return the schema that a reference points to, or the schema itself if it is not a reference."""
         while "$ref" in schema:
             schema = self._document["$defs"][schema["$ref"].rsplit("/", 1)[1]]
         return schema
 
     def value(self, schema: Schema) -> Any:
-        """Draw one value."""
+        """Draw a random value for a schema."""
         schema = self.resolved(schema)
         if "anyOf" in schema:
             return self.value(self._choice.choice(schema["anyOf"]))
@@ -109,7 +110,7 @@ class Draw:
 
 
 def leaves(schema: Schema, draw: Draw, path: tuple[str, ...] = ()) -> list[tuple[tuple[str, ...], Schema]]:
-    """Return the path and schema of every field of a request that is not a section."""
+    """Return the path and the schema of every field of a request. An object is replaced by its fields."""
     schema = draw.resolved(schema)
     if schema.get("type") != "object":
         return [(path, schema)]
@@ -118,12 +119,15 @@ def leaves(schema: Schema, draw: Draw, path: tuple[str, ...] = ()) -> list[tuple
 
 @cache
 def schema_of(calculation: Calculation) -> Schema:
-    """Return the schema of the endpoint's requests."""
+    """Return the JSON schema of the requests to the endpoint of a calculation."""
     return calculation.request.model_json_schema()
 
 
 def request(seed: int) -> tuple[str, dict[str, Any]]:
-    """Return the endpoint and body of a seed: an example with some random fields, or a random body."""
+    """Return the endpoint and the body of the random request with this seed.
+
+    The body is an example with some random fields, or the body is entirely random.
+    """
     choice = random.Random(seed)
     calculation = choice.choices(CALCULATIONS, [SHARES.get(listed.path, 1.0) for listed in CALCULATIONS])[0]
     document = schema_of(calculation)
@@ -142,12 +146,15 @@ def request(seed: int) -> tuple[str, dict[str, Any]]:
 
 
 def refuse(constant: str) -> float:
-    """Reject NaN and Infinity in an answer."""
+    """Raise ValueError. The JSON parser calls this function if an answer contains NaN or infinity."""
     raise ValueError(f"{constant} in the answer")
 
 
 def solve_random(seed: int) -> tuple[str, str, float]:
-    """Solve the request of a seed; return endpoint, outcome (status, refusal or failure) and CPU time [s]."""
+    """Solve the random request with this seed, and return endpoint, outcome and CPU time [s].
+
+    The outcome is the status of the answer, the code of the refusal, or "FAILED" after any other exception.
+    """
     path, body = request(seed)
     began = time.process_time()  # other processes on the machine do not count
     try:
@@ -166,7 +173,10 @@ def solve_random(seed: int) -> tuple[str, str, float]:
 
 
 def main(first: int, count: int) -> None:
-    """Solve the requests of `count` seeds and print the outcomes."""
+    """Solve the requests with `count` consecutive seeds.
+
+    Print the number of requests per endpoint and per outcome, and the five longest times.
+    """
     outcomes: Counter[str] = Counter()
     asked: Counter[str] = Counter()
     late: list[tuple[float, int]] = []

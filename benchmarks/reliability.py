@@ -1,7 +1,7 @@
-"""Reliability of the service: a mixed load while workers and clients fail, scenarios of faults, random input.
+"""Test the reliability of the service: a mixed load while workers and clients fail, tests of faults, and random input.
 
-Prints the table of the README's section "Reliability". Run from the project's root: python -m benchmarks.reliability
-(a minute of load), or with --seconds 600 --faults 2000 for the long one.
+The script prints a table like the table in the section "Reliability" of benchmarks/README.md. Run from the project's
+root: python -m benchmarks.reliability (one minute of load), or with --seconds 600 --faults 2000 (ten minutes of load).
 """
 
 import argparse
@@ -45,7 +45,7 @@ JSON = {"Content-Type": "application/json"}
 
 @dataclass
 class Watch:
-    """What happened while the load ran."""
+    """Records of the service under load: outcomes of requests, faults, times and resources."""
 
     outcomes: Counter[str] = field(default_factory=Counter)
     faults: Counter[str] = field(default_factory=Counter)
@@ -57,7 +57,7 @@ class Watch:
 
 @dataclass(frozen=True)
 class Case:
-    """A request and the bytes that answer it."""
+    """A request of the mixed load, and the bytes of the correct answer."""
 
     path: str
     body: bytes
@@ -65,7 +65,7 @@ class Case:
 
 
 def cases(address: str) -> list[Case]:
-    """Return the mixed load with the answers of the service at rest."""
+    """Return the requests of the mixed load, with the answers that the service gives without other load."""
     load_cases = []
     for name in MIX:
         example = examples()[name]
@@ -76,7 +76,7 @@ def cases(address: str) -> list[Case]:
 
 
 def outcome(connection: http.client.HTTPConnection, case: Case) -> str:
-    """Send a request; return "right", "wrong" or the code of the problem."""
+    """Send a request, and return "right", "wrong" or the code of the problem that the service reports."""
     connection.request("POST", case.path, case.body, JSON)
     response = connection.getresponse()
     content = response.read()
@@ -86,7 +86,7 @@ def outcome(connection: http.client.HTTPConnection, case: Case) -> str:
 
 
 def load(netloc: str, mix: list[Case], seed: int, watch: Watch, done: threading.Event) -> None:
-    """Send random requests as one client, with an address of its own, and check the answers."""
+    """Send random requests as one client with its own IP address until `done` is set, and count the outcomes."""
     choice = random.Random(seed)
     connection = http.client.HTTPConnection(netloc, timeout=60, source_address=(f"127.0.0.{2 + seed}", 0))
     while not done.is_set():
@@ -99,7 +99,7 @@ def load(netloc: str, mix: list[Case], seed: int, watch: Watch, done: threading.
 
 
 def leave(netloc: str, case: Case) -> None:
-    """Send a long request as a client that leaves before the answer."""
+    """Send a request, and close the connection after 20 ms without reading the answer."""
     host, port = netloc.split(":")
     with socket.create_connection((host, int(port)), timeout=10, source_address=(LEAVING, 0)) as connection:
         head = f"POST {case.path} HTTP/1.1\r\nHost: {netloc}\r\nContent-Type: application/json\r\n"
@@ -108,7 +108,7 @@ def leave(netloc: str, case: Case) -> None:
 
 
 def health(netloc: str, watch: Watch, done: threading.Event) -> None:
-    """Ask for health 20 times a second."""
+    """Request /healthz about 20 times per second until `done` is set, and record the response times [ms]."""
     connection = http.client.HTTPConnection(netloc, timeout=60)
     while not done.wait(0.05):
         began = time.perf_counter()
@@ -118,7 +118,11 @@ def health(netloc: str, watch: Watch, done: threading.Event) -> None:
 
 
 def disturb(process: subprocess.Popen[str], mix: list[Case], netloc: str, watch: Watch) -> None:
-    """Cause one fault and record the processes: kill a worker, stop a worker or leave as a client, in turn."""
+    """Cause one fault, and record memory, descriptors and processes of the server.
+
+    The faults take turns: kill a worker, leave as a client, stop a worker, leave as a client. If the server has no
+    worker, no worker is killed or stopped, but the fault is still counted.
+    """
     long = next(case for case in mix if case.path == "/v1/scuffing")
     kind = ("killed", "left", "stopped", "left")[sum(watch.faults.values()) % 4]
     alive = workers(process)
@@ -134,7 +138,7 @@ def disturb(process: subprocess.Popen[str], mix: list[Case], netloc: str, watch:
 
 
 def under_load(seconds: int, faults: int) -> Iterator[tuple[str, str]]:
-    """Yield the rows of the table about a mixed load while workers and clients fail."""
+    """Run the mixed load while workers and clients fail, and yield the rows of the table about this load."""
     watch, done = Watch(), threading.Event()
     with running_server(log_level="error") as (process, address):
         netloc = urlsplit(address).netloc
@@ -175,7 +179,7 @@ def under_load(seconds: int, faults: int) -> Iterator[tuple[str, str]]:
 
 
 def under_faults() -> Iterator[tuple[str, str]]:
-    """Yield the rows of the table about the scenarios of the fault suite."""
+    """Run the service tests of faults, floods, log and start with pytest, and yield one row of the table per test."""
     suites = ["tests/service/test_faults.py", "tests/service/test_floods.py", "tests/service/test_log.py"]
     command = [sys.executable, "-m", "pytest", "-q", "-m", "service", "-rA", *suites, "tests/service/test_start.py"]
     report = subprocess.run(command, cwd=ROOT, check=False, capture_output=True, text=True).stdout
@@ -184,7 +188,7 @@ def under_faults() -> Iterator[tuple[str, str]]:
 
 
 def under_generated_inputs(examples_per_operation: int) -> Iterator[tuple[str, str]]:
-    """Yield the rows of the table about schemathesis, with every check over the whole OpenAPI document."""
+    """Run all checks of schemathesis on the OpenAPI document, and yield the rows of the table about these checks."""
     command = [str(Path(sys.executable).with_name("schemathesis")), "run", "--checks", "all"]
     command += ["--max-examples", str(examples_per_operation)]
     with running_server(log_level="error") as (_, address):
@@ -201,7 +205,7 @@ def under_generated_inputs(examples_per_operation: int) -> Iterator[tuple[str, s
 
 
 def main(seconds: int, faults: int, examples_per_operation: int, *, load_only: bool) -> None:
-    """Run everything and print the table."""
+    """Run the mixed load and, unless `load_only` is set, the service tests and schemathesis. Print the table."""
     print("| tried | what held |\n|---|---|")
     parts = [under_load(seconds, faults)]
     if not load_only:

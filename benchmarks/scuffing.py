@@ -1,4 +1,6 @@
-"""Time of a load distribution with its 200 x 100 flank map, of a scuffing check, and of a relief sweep.
+"""Print the run times of the load distribution, of a scuffing check, and of a sweep over 625 relief designs.
+
+Each single load distribution includes a flank map of 200 x 100 points.
 
 Run from the project's root: python -m benchmarks.scuffing [--against REVISION]
 """
@@ -31,13 +33,13 @@ SWEEP = Resolution(roll_positions=60, slices=40, profile_points=41, face_points=
 
 
 def paper_pair(width: float, helix: float, model: Model, modifications: Modifications) -> LoadDistributionInputs:
-    """Return a pair of Xue, Zhang and Wang at 50 kW and 2000 1/min."""
+    """Return a gear pair of Xue, Zhang and Wang at 50 kW and 2000 1/min; `width` is in [m] and `helix` in [deg]."""
     gears = GearPairInputs(GearTeeth(23), GearTeeth(30), 3e-3, width, helix_angle=radians(helix), rack_tip_radius=0.38)
     return LoadDistributionInputs(gears, Load(50e3 / SPEED, SPEED), modifications, model=model, resolution=MAP)
 
 
 def relief_designs() -> Iterator[Modifications]:
-    """Yield 5^4 designs of tip relief, its length, profile crowning and lead crowning."""
+    """Yield 5^4 designs that differ in tip relief, length of the tip relief, profile crowning and lead crowning."""
     for relief, length, profile, lead in product(range(5), range(1, 6), range(5), range(5)):
         yield Modifications(
             tip_relief=relief * 5e-6,
@@ -48,14 +50,14 @@ def relief_designs() -> Iterator[Modifications]:
 
 
 def sweep(model: Model) -> None:
-    """Solve all designs one after the other."""
+    """Compute the load distributions of all relief designs, one design after another."""
     inputs = replace(paper_pair(20e-3, 9.8, model, MODIFIED), resolution=SWEEP)
     for design in relief_designs():
         solve_load_distribution(replace(inputs, modifications=design))
 
 
 def figures() -> Iterator[Figure]:
-    """Yield the rows of the table."""
+    """Yield a `Figure` for each row of the printed table."""
     models = (("linear", Model(contact="linear"), 3.0), ("half-space", Model(), 6.0))
     for name, model, target in models:
         for width, helix in ((20e-3, 9.8), (40e-3, 20.2)):

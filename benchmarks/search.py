@@ -1,6 +1,7 @@
-"""python -m benchmarks.search: random cases against every invariant, with a fresh seed, for as long as told.
+"""Check random cases against the invariants of the tests for a given time.
 
-Not in CI, which must not fail by chance: every failure that this ever finds becomes a fixed case of the tests.
+Run from the project's root: python -m benchmarks.search. Each run has a new seed unless --seed gives one. The search is
+not part of CI, because CI must not fail by chance. Every case that fails in a search becomes a fixed case of the tests.
 """
 
 import argparse
@@ -27,7 +28,10 @@ CHECKS: dict[str, Check] = {
 
 
 def main() -> None:
-    """Draw until the time is up; every check gets the same share of it."""
+    """Run the selected checks on random cases until the time is up, and print the numbers of cases and failures.
+
+    The exit status is 1 if a check has failed, otherwise 0.
+    """
     options = argparse.ArgumentParser(description=__doc__)
     options.add_argument("--minutes", type=float, default=60.0)
     options.add_argument("--seed", type=int, default=None, help="repeat a search")
@@ -44,7 +48,10 @@ def main() -> None:
 
 
 def search(checks: dict[str, Check], seed: int, seconds: float) -> Counter[tuple[str, str]]:
-    """Count cases and failures of each check; the check with the least time so far is next."""
+    """Run checks on random cases for the given time, and return the numbers of cases and failures of each check.
+
+    The next check is always the check that has used the least time so far.
+    """
     counts: Counter[tuple[str, str]] = Counter()
     spent = dict.fromkeys(checks, 0.0)
     while sum(spent.values()) < seconds:

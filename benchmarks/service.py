@@ -1,6 +1,8 @@
-"""Requests/s and 99th percentile beside an empty typed endpoint; first requests; memory of the workers. Needs wrk.
+"""Measure the speed of the service and the memory of its workers.
 
-Run from the project's root: python -m benchmarks.service
+The script prints requests per second and the 99th percentile of the response time, for endpoints of the service and for
+an empty typed endpoint. The script also prints the times of first requests and the memory of the largest worker. Run
+from the project's root: python -m benchmarks.service. The program wrk must be installed.
 """
 
 import argparse
@@ -31,7 +33,7 @@ EXAMPLE = {**examples()["pahl-axial-displacement"].request, "detail": "summary"}
 
 
 def with_empty_endpoint(app: FastAPI) -> FastAPI:
-    """Add to the application an endpoint that validates a coupling and does nothing."""
+    """Add the endpoint /empty to an application. This endpoint validates a coupling request and computes nothing."""
 
     @app.post("/empty")
     async def empty(_body: CouplingRequest) -> Health:
@@ -43,7 +45,7 @@ def with_empty_endpoint(app: FastAPI) -> FastAPI:
 
 
 def bare() -> FastAPI:
-    """Return FastAPI without the layers of the service."""
+    """Return an application with the empty endpoint, but without the middleware and the logging of the service."""
     app = with_empty_endpoint(FastAPI())
 
     @app.get("/readyz")
@@ -54,7 +56,7 @@ def bare() -> FastAPI:
 
 
 def __getattr__(name: str) -> FastAPI:
-    """Create one of the two applications; uvicorn calls this function."""
+    """Create the application "bare_app" or "our_app" when uvicorn reads this attribute of the module."""
     match name:
         case "bare_app":
             return bare()
@@ -66,7 +68,10 @@ def __getattr__(name: str) -> FastAPI:
 
 @contextmanager
 def served(factory: str) -> Iterator[subprocess.Popen[bytes]]:
-    """Run a server process of one of the applications above."""
+    """Run the application "bare" or "ours" in a server process, and yield the process.
+
+    The function first waits until /readyz succeeds, for at most 3000 attempts.
+    """
     environment = {**os.environ, "TRIBODRIVE_PORT": str(PORT)}
     command = [sys.executable, "-m", "benchmarks.service", "--serve", factory]
     process = subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL)
@@ -83,7 +88,7 @@ def served(factory: str) -> Iterator[subprocess.Popen[bytes]]:
 
 
 def load(path: str, body: object | None, seconds: int, connections: int = 8) -> tuple[float, float]:
-    """Measure requests per second and the 99th percentile [ms] under wrk."""
+    """Send requests with wrk, and return the requests per second and the 99th percentile of the response time [ms]."""
     with tempfile.NamedTemporaryFile("w", suffix=".lua") as script:
         if body is not None:
             content = json.dumps(json.dumps(body))
@@ -102,14 +107,17 @@ def load(path: str, body: object | None, seconds: int, connections: int = 8) -> 
 
 
 def milliseconds(client: httpx.Client, example: Example) -> float:
-    """Measure the time of one request [ms], as its client sees it."""
+    """Send the request of an example, and return the time until the client has the answer [ms]."""
     start = time.perf_counter()
     client.post(example.endpoint, json=example.request).raise_for_status()
     return 1e3 * (time.perf_counter() - start)
 
 
 def first_requests() -> None:
-    """Print the time of each endpoint's first request and of later requests, and the memory of the workers."""
+    """Print the time of the first request and the median time of later requests for each endpoint.
+
+    Print also the memory of the largest worker after the requests of all examples.
+    """
     first_of = {example.endpoint: example for example in reversed(examples().values())}
     with served("ours") as process, httpx.Client(base_url=ADDRESS, timeout=120) as client:
         print(f"\n{'endpoint':<40}{'first ms':>12}{'later ms':>10}")
@@ -130,7 +138,10 @@ MEASURED = {
 
 
 def best_loads(seconds: int, rounds: int) -> dict[tuple[str, str], tuple[float, float]]:
-    """Measure the highest rate and lowest percentile of several rounds, in which the two applications take turns."""
+    """Return the highest rate [requests/s] and the lowest 99th percentile [ms] of several rounds, for each case.
+
+    The cases are the keys of `MEASURED`. In each round, the two applications run one after the other.
+    """
     loads: dict[tuple[str, str], list[tuple[float, float]]] = {case: [] for case in MEASURED}
     for _ in range(rounds):
         for factory in ("bare", "ours"):
@@ -143,7 +154,7 @@ def best_loads(seconds: int, rounds: int) -> dict[tuple[str, str], tuple[float, 
 
 
 def main(seconds: int, rounds: int) -> None:
-    """Measure and print the tables."""
+    """Measure the loads and the first requests, and print the results."""
     best = best_loads(seconds, rounds)
     print(f"{'endpoint':<40}{'requests/s':>12}{'p99 ms':>10}")
     for case, name in MEASURED.items():

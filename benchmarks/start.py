@@ -1,6 +1,7 @@
-"""Time from the command until the service answers, solves a coupling and has every kernel, from both kinds of cache.
+"""Measure the time from the start command until the service answers, solves a coupling, and has all kernels.
 
-Run from the project's root: python -m benchmarks.start
+The service starts once with an empty cache of kernels and once with a full cache. Run from the project's root:
+python -m benchmarks.start
 """
 
 import os
@@ -26,7 +27,10 @@ def wait_until(client: httpx.Client, method: str, path: str, body: object = None
 
 
 def start(cache: str) -> dict[str, float]:
-    """Measure the times from the command until the port is open, a coupling is solved and everything is warm [s]."""
+    """Start the service, and return the times until the service answers, solves a coupling, and is warm [s].
+
+    `cache` is the folder of the cached kernels.
+    """
     began = time.perf_counter()
     with (
         started_server(environment={"NUMBA_CACHE_DIR": cache}, log_level="error") as (process, address),
@@ -43,7 +47,7 @@ def start(cache: str) -> dict[str, float]:
 
 
 def main() -> None:
-    """Measure and print the table."""
+    """Measure a start with an empty cache and a start with a warm cache, and print the times."""
     with tempfile.TemporaryDirectory() as cache:
         cold, warm = start(cache), start(cache)
     print(f"| start, {os.cpu_count()} cores | empty cache | warm cache |\n|---|---|---|")

@@ -1,8 +1,9 @@
-"""Times of a benchmark's figures, beside those of a previous version, or of another target, in the same run.
+"""Measure the run times of a benchmark, and optionally compare two versions of the solvers in the same run.
 
-`--against REVISION` of a benchmark puts the revision's sources, with the benchmarks of today, into a folder of their
-own; `--processor NAME` compiles today's for a processor that LLVM knows by this name. One process of each answers in
-turn: what else the machine does meets both, and their ratio holds.
+If a benchmark is run with `--against REVISION`, the other version is a copy of the sources of this revision, with the
+present benchmarks. If a benchmark is run with `--processor NAME`, the other version is the present sources, compiled
+for the processor with this name in LLVM. Each version runs in its own process, and the two processes measure in turn.
+Other work on the machine therefore slows both versions, and the ratio of the times remains valid.
 """
 
 import argparse
@@ -30,32 +31,35 @@ ANSWERS_FOR = "--answers-for-another-process"
 
 @dataclass(frozen=True, slots=True)
 class Figure:
-    """Name of a figure, the function that is timed, and its target time [ms]."""
+    """A row of the table: the name of the row, the function that is timed, and the target of the time [ms]."""
 
     name: str
     run: Callable[[], object]
     target: float
 
     def seconds(self) -> float:
-        """Measure the time of a run [s]."""
+        """Return the shortest CPU time of a run [s]."""
         return best(self.run)
 
 
 @dataclass(frozen=True, slots=True)
 class MedianFigure:
-    """Name of a figure, the functions whose median time is taken, and its target time [ms]."""
+    """A row of the table: the name of the row, the functions that are timed, and the target of the median time [ms]."""
 
     name: str
     runs: Sequence[Callable[[], object]]
     target: float
 
     def seconds(self) -> float:
-        """Measure the median time of the runs [s], each timed once."""
+        """Run each function once, and return the median of the CPU times [s]."""
         return median(_duration(run) for run in self.runs)
 
 
 def best(run: Callable[[], object]) -> float:
-    """Return the shortest CPU time of a run [s], after one that warms up: other work only adds time."""
+    """Return the shortest CPU time of several runs of a function [s].
+
+    An additional first run warms up the function. The shortest time counts, because other work only adds time.
+    """
     run()
     times: list[float] = []
     while len(times) < LEAST_RUNS or sum(times) < ROUND_S:
@@ -71,7 +75,10 @@ def _duration(run: Callable[[], object]) -> float:
 
 
 def print_times(benchmark: str, figures: Sequence[Figure | MedianFigure]) -> None:
-    """Print the table of a benchmark (the name of its module), with the options of the command line."""
+    """Read the options of the command line, and print the table of a benchmark.
+
+    `benchmark` is the name of the module of the benchmark, and `figures` are the rows of the table.
+    """
     parser = argparse.ArgumentParser()
     other = parser.add_mutually_exclusive_group()
     other.add_argument("--against", metavar="REVISION", help="print the times of a previous version too")
@@ -98,7 +105,11 @@ def _print_ratios(
     revision: str | None,
     processor: str | None,
 ) -> None:
-    """Print the best times of both versions, and the median of the ratios of times measured side by side."""
+    """Print the times of the present version and of the other version, and the ratio of the times.
+
+    Both versions are measured `ROUNDS` times in turn. The printed times are the shortest of these rounds. The ratio is
+    the time of the other version divided by the time of the present version; the median over the rounds is printed.
+    """
     print(f"| figure | measured | {revision or processor} | ratio | aim |\n|---|---|---|---|---|")
     target = {"NUMBA_CPU_NAME": processor, "NUMBA_CPU_FEATURES": ""} if processor else {}
     with (
@@ -118,7 +129,7 @@ def _print_ratios(
 
 @contextmanager
 def _sources_of(revision: str) -> Iterator[Path]:
-    """Create a folder with a revision's sources and today's benchmarks."""
+    """Create a temporary folder with the sources of a revision and with the present benchmarks."""
     archive = subprocess.run(["git", "archive", revision], cwd=ROOT, capture_output=True, check=True).stdout
     with tempfile.TemporaryDirectory() as folder:
         with tarfile.open(fileobj=BytesIO(archive)) as sources:
@@ -130,7 +141,10 @@ def _sources_of(revision: str) -> Iterator[Path]:
 
 @contextmanager
 def _process(benchmark: str, folder: Path, **variables: str) -> Iterator[subprocess.Popen[str]]:
-    """Start a process that times the sources in a folder; both versions share the cache of kernels."""
+    """Start a process that measures the times of the sources in a folder.
+
+    `variables` are additional environment variables of the process.
+    """
     command = [sys.executable, "-m", benchmark, ANSWERS_FOR]
     environment = {**os.environ, **ONE_THREAD, **variables}
     with subprocess.Popen(
@@ -143,7 +157,7 @@ def _process(benchmark: str, folder: Path, **variables: str) -> Iterator[subproc
 
 
 def _ask_time(process: subprocess.Popen[str], index: int) -> float:
-    """Return the best time of a figure [s], measured by the process."""
+    """Let a process measure the time of the figure with this index, and return the time [s]."""
     assert process.stdin is not None
     assert process.stdout is not None
     print(index, file=process.stdin, flush=True)
@@ -151,6 +165,6 @@ def _ask_time(process: subprocess.Popen[str], index: int) -> float:
 
 
 def _answer(figures: Sequence[Figure | MedianFigure]) -> None:
-    """Time the figures whose numbers arrive on standard input."""
+    """Read indices of figures from the standard input, and print the time of each of these figures [s]."""
     for line in sys.stdin:
         print(figures[int(line)].seconds(), flush=True)

@@ -1,4 +1,4 @@
-"""Kernels that are compiled once for all processes of a test run, and one service for all tests that talk to one."""
+"""The processes of a test run share compiled kernels, and all tests in a process share one service."""
 
 import asyncio
 from collections.abc import Callable, Iterator
@@ -21,14 +21,17 @@ settings.load_profile("kernels")
 
 
 def pytest_sessionstart(session: pytest.Session) -> None:
-    """Compile all kernels in two processes before tests run on several; each of them would compile its own."""
+    """Compile all kernels before the tests run in several processes.
+
+    Otherwise, each of these processes would compile its own kernels.
+    """
     if session.config.getoption("numprocesses", None) and not hasattr(session.config, "workerinput"):
         asyncio.run(StartUp().run())
 
 
 @pytest.fixture
 def without_images(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Figures of a report are neither laid out nor drawn, where its texts alone are read."""
+    """Skip the layout and the drawing of figures, for tests that read only the texts of a report."""
     monkeypatch.setattr("app.figures.drawing.image.draw_for_report", lambda figure: (figure, b""))
 
 

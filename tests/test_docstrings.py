@@ -1,4 +1,4 @@
-"""Docstrings of public objects have numpydoc's form: its validator finds nothing of the checks in pyproject."""
+"""The docstrings of public objects pass the checks of numpydoc's validator that pyproject.toml selects."""
 
 import inspect
 import tomllib
@@ -21,7 +21,10 @@ CHECKS = set(tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["numpy
 
 
 def exported() -> set[str]:
-    """Return the names of the classes and functions that packages of the solvers export, as they are defined."""
+    """Return the dotted names of the classes and functions that packages of the solvers export.
+
+    Each name begins with the module that defines the class or function.
+    """
     packages = [import_module(".".join(path.parent.relative_to(ROOT).parts)) for path in SOLVERS.rglob("__init__.py")]
     values = [getattr(package, name) for package in packages for name in getattr(package, "__all__", ())]
     return {
@@ -32,7 +35,7 @@ def exported() -> set[str]:
 
 
 def with_equation() -> set[str]:
-    """Return the names of functions whose docstring cites an equation, and of every `solve`."""
+    """Return the dotted names of all functions whose docstring cites an equation, and of every function `solve`."""
     functions = {name for name in cited() if name.rpartition(".")[2][0].islower() and name != module_of(name)}
     return functions | {name for _, name, _ in docstrings() if name.endswith(".solve")}
 

@@ -1,4 +1,4 @@
-"""A study is one module of `app.studies.kinds` and a template: nothing else names it."""
+"""A new kind of study needs one module in `app.studies.kinds` and one template. No other file names the study."""
 
 import sys
 from collections.abc import Iterator
@@ -96,7 +96,7 @@ TEMPLATE = '<div class="frame"><p class="twice">{{ page.output.title }}: {{ foun
 
 @pytest.fixture
 def page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Any]:
-    """The page of a study whose module and template have been added."""
+    """Add the module and the template of a new kind of study, and yield the page of this study."""
     (tmp_path / "twice.py").write_text(TWICE, "utf-8")
     (tmp_path / "twice.html").write_text(TEMPLATE, "utf-8")
     monkeypatch.setattr(kinds, "__path__", [*kinds.__path__, str(tmp_path)])

@@ -1,4 +1,4 @@
-"""Data flows one way: app calls solvers, solvers know nothing of HTTP, no module needs itself."""
+"""Imports go one way: `app` imports `solvers`, `solvers` never imports `app`, and no imports are circular."""
 
 import ast
 import re
@@ -25,7 +25,7 @@ def tree(path: Path) -> ast.Module:
 
 @cache
 def imports(path: Path) -> list[ast.Import | ast.ImportFrom]:
-    """Every import of a module, wherever in it."""
+    """Return all import statements of a module, also those inside functions."""
     return [node for node in ast.walk(tree(path)) if isinstance(node, ast.Import | ast.ImportFrom)]
 
 
@@ -62,7 +62,7 @@ SOLVERS = {name for name in PACKAGES if name.startswith("solvers")}
 
 
 def modules_imported(path: Path) -> Iterator[str]:
-    """The project's modules that a module imports, wherever in it."""
+    """Yield the project's modules that a module imports, also inside functions."""
     for node in imports(path):
         if isinstance(node, ast.ImportFrom) and node.module in NAMES:
             for alias in node.names:
@@ -73,7 +73,10 @@ def modules_imported(path: Path) -> Iterator[str]:
 
 
 def siblings(name: str, other: str) -> tuple[str, str]:
-    """The two packages side by side to which two modules belong; equal ones where they belong to the same."""
+    """Return both dotted names up to and including the first part in which they differ.
+
+    For `solvers.gears.pair` and `solvers.scuffing.notices`, the result is `solvers.gears` and `solvers.scuffing`.
+    """
     one, two = name.split("."), other.split(".")
     shared = len(list(takewhile(lambda pair: pair[0] == pair[1], zip(one, two, strict=False))))
     return ".".join(one[: shared + 1]), ".".join(two[: shared + 1])
@@ -115,9 +118,10 @@ ROOMS = (
     "command",
     "__main__",
 )
-"""The entries of `app`: each imports those above it only.
+"""The entries of `app`. An entry imports only itself and entries above it.
 
-The kinds of study are an own one: their pages are made of parts of pages, which look them up without an import.
+The kinds of study are a separate entry, because their modules import parts of pages. The pages find the kinds of study
+without an import statement.
 """
 
 
@@ -125,7 +129,7 @@ KINDS = "studies.kinds"
 
 
 def room(name: str) -> str | None:
-    """The entry of `app` to which a module belongs."""
+    """Return the entry of `app` to which a module belongs, or None if the module is not in `app`."""
     if name.startswith(f"app.{KINDS}."):
         return KINDS
     return name.split(".")[1] if name.startswith("app.") else None
@@ -148,7 +152,7 @@ def test_a_module_says_what_it_is_about(path: Path) -> None:
 
 
 WITHDRAWN = re.compile(r"\bctypes\b|\bos\.fork|/proc\b|recv_handle|prctl|process_group|starlette\._")
-"""What standard parts do for the service, and what only some platforms have."""
+"""Names that no module may contain: standard parts replace them, or only some platforms have them."""
 
 
 @pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))

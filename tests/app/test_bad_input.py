@@ -1,4 +1,7 @@
-"""Bad input is a 422 problem with a pointer, whatever it is; the input is never echoed."""
+"""The service answers bad input with a problem document, never with status 500.
+
+If a value in the request is a wrong word, the problem document does not repeat this word.
+"""
 
 import json
 import re
@@ -24,7 +27,7 @@ def example_of(calculation: Calculation) -> dict[str, Any]:
 
 
 def number_fields(model: type[BaseModel], prefix: str = "") -> Iterator[str]:
-    """Paths of every plain number in a request model."""
+    """Yield the dotted paths of number fields of a request model, except in lists and in optional sections."""
     for name, field in model.model_fields.items():
         if isinstance(field.annotation, type) and issubclass(field.annotation, BaseModel):
             yield from number_fields(field.annotation, f"{prefix}{name}.")
@@ -33,12 +36,15 @@ def number_fields(model: type[BaseModel], prefix: str = "") -> Iterator[str]:
 
 
 def short_path(calculation: Calculation) -> dict[str, int]:
-    """Five points along a thermal path, for a request that has one: contacts are not what is tried here."""
+    """Return a change that gives the path of contact five points, so that the answer takes little time.
+
+    If the request has no `model.path_points`, the change is empty.
+    """
     return {"model.path_points": 5} if "model.path_points" in number_fields(calculation.request) else {}
 
 
 def send(client: httpx.Client, path: str, body: object) -> httpx.Response:
-    """Post with the NaN and Infinity that strict encoders refuse."""
+    """Post a body as JSON with NaN and Infinity. Strict encoders reject these numbers."""
     return client.post(path, content=json.dumps(body), headers={"Content-Type": "application/json"})
 
 
@@ -63,7 +69,10 @@ def pointer(path: str) -> str:
 @pytest.mark.parametrize("value", NO_NUMBERS, ids=lambda each: str(each)[:9])
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 def test_number_fields_refuse_what_is_no_number(client: httpx.Client, calculation: Calculation, value: Any) -> None:
-    """Many at once: each is refused for itself, and at most a hundred are told."""
+    """The service reports every number field with a wrong value.
+
+    The test sends at most 90 wrong fields per request, because an answer reports at most 100 errors.
+    """
     every = sorted(set(number_fields(calculation.request)))
     for paths in (every[start : start + 90] for start in range(0, len(every), 90)):
         response = send(client, calculation.path, changed(example_of(calculation), dict.fromkeys(paths, value)))
@@ -109,7 +118,10 @@ def test_the_input_is_not_echoed(client: httpx.Client) -> None:
 
 
 def own_fields(calculation: Calculation) -> list[str]:
-    """Return the fields to vary. For a warm-up, these are `cooling` and the fields that the drive train lacks."""
+    """Return the number fields to vary.
+
+    For a warm-up, these are the fields in `cooling` and the fields that the drive train lacks.
+    """
     unit = BY_PATH["/v1/drive-train"]
     others = number_fields(unit.request) if calculation.path.startswith(f"{unit.path}/") else []
     return [path for path in number_fields(calculation.request) if path not in others or path.startswith("cooling.")]
@@ -126,7 +138,7 @@ def test_nothing_gives_500(client: httpx.Client, calculation: Calculation) -> No
 
 
 def range_ends(model: type[BaseModel], path: str) -> tuple[float, float]:
-    """The smallest and the largest number that a field takes, but for open ends."""
+    """Return the lower and the upper limit of a number field. A limit may itself be outside the range."""
     first, _, below = path.partition(".")
     field = model.model_fields[first]
     if below:
@@ -140,16 +152,16 @@ def range_ends(model: type[BaseModel], path: str) -> tuple[float, float]:
 
 
 def kind_of(example: Example) -> tuple[str, frozenset[tuple[str, str]]]:
-    """The fields that an example gives, and the words in them."""
+    """Return the endpoint of an example, and its fields with their texts. Numbers become empty texts."""
     pairs = pairs_of(example.request)
     numbers = re.compile(r"[-+\d.e, ]*")
     return example.endpoint, frozenset((name, "" if numbers.fullmatch(text) else text) for name, text in pairs)
 
 
 KINDS = {kind_of(each): each for each in reversed(examples().values())}
-"""The first example of each kind: the others differ from it in numbers only, of which every one is varied."""
+"""The first example of each kind. Other examples of a kind differ in numbers only, and the test varies the numbers."""
 FULLEST = {kind[0]: each for kind, each in sorted(KINDS.items(), key=lambda item: len(item[0][1]))}
-"""The example of each endpoint with the most fields; here the fields that are left to defaults are varied too."""
+"""For each endpoint, the example with the most fields. Here the test also varies fields that are not given."""
 
 
 @pytest.mark.slow

@@ -1,4 +1,4 @@
-"""The same pair in other calculations: everything that both have in common goes along, the rest is not lost."""
+"""Links to other calculations carry the gears or the coupling of a case, and keep the other values for the way back."""
 
 from itertools import permutations
 from typing import Any

@@ -1,4 +1,4 @@
-"""A case is a request: its inputs posted back are the same case, and every default is the solver's own."""
+"""If the inputs in an answer are posted again, the case is the same. Defaults of requests are those of the solvers."""
 
 import dataclasses
 import hashlib
@@ -131,14 +131,21 @@ def test_fields_of_list_items_are_found() -> None:
     ],
 )
 def test_what_a_solver_of_many_parts_names_is_found(said: str, meant: str | None) -> None:
-    """Of namesakes the outermost is meant, of an item's the item's own, of what an item lacks the item."""
+    """A solver's name of an input leads to the field of the request.
+
+    If several fields match, the outermost field is meant. For a list item, the item's own field is meant, or the item
+    itself if it lacks the field.
+    """
     _, request = case("starter-turbo-gear-drive-train")
     assert field_path(request, said) == meant
 
 
 @pytest.mark.parametrize("name", sorted(examples()))
 def test_defaults_are_the_solver_s(name: str) -> None:
-    """A default that a section states itself, in the unit shown, is that of the solver."""
+    """If a request leaves out a field with a default, the solver gets its own default.
+
+    Methods are not checked, because they follow from other fields.
+    """
     example = examples()[name]
     calculation = BY_PATH[example.endpoint]
     request = calculation.request.model_validate(example.request)
@@ -154,13 +161,16 @@ def test_defaults_are_the_solver_s(name: str) -> None:
 
 
 def default_of(field: "dataclasses.Field[Any]") -> Any:
-    """A plain default; none where there is none, or where each model has its own."""
+    """Return the default of a field if it is a number or a text, otherwise None.
+
+    `rack_tip_radius` also gives None, because its default differs between models.
+    """
     plain = isinstance(field.default, float | int | str) and field.name != "rack_tip_radius"
     return field.default if plain else None
 
 
 def declared(inputs: Any, path: str = "") -> Iterator[tuple[Any, str]]:
-    """Every dataclass within the solver's inputs, with the end of its path."""
+    """Yield the solver's inputs and all dataclasses inside them, each with the last part of its path."""
     yield inputs, path
     for field in dataclasses.fields(inputs):
         value = getattr(inputs, field.name)
@@ -169,7 +179,7 @@ def declared(inputs: Any, path: str = "") -> Iterator[tuple[Any, str]]:
 
 
 def is_default(request: Request, path: str) -> bool:
-    """Whether the field was left out of the request, and means a number all the same."""
+    """Return whether a field has a value although the request leaves the field out."""
     section: Any = request
     *sections, name = path.split(".")
     for part in sections:

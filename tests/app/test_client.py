@@ -1,4 +1,4 @@
-"""The client against the running service, and against a transport that refuses, waits and breaks off."""
+"""The Python clients work with the running service, and handle refusals, requests to wait and aborted studies."""
 
 import asyncio
 import json
@@ -31,7 +31,7 @@ def service(server: str) -> Iterator[Tribodrive]:
 
 
 def behind(*answers: httpx.Response) -> Tribodrive:
-    """A client whose service gives these answers one after the other."""
+    """Return a client whose service gives these answers one after the other."""
     left = iter(answers)
     return Tribodrive(transport=httpx.MockTransport(lambda _: next(left)))
 
@@ -100,7 +100,7 @@ def test_a_sensitivity_is_a_table(service: Tribodrive) -> None:
 
 
 def test_a_spectrum_is_a_table_of_its_cases(service: Tribodrive) -> None:
-    """Its bar ends at the last solution, although the last line of progress comes before it."""
+    """The progress bar of a spectrum ends at the total, although the last progress line reports fewer solutions."""
     cases = [{"name": "full"}, {"name": "half", "set": {"operation.torque_n_m": 1500}}]
     request = {key: SWEEP[key] for key in ("endpoint", "request", "outputs")} | {"cases": cases}
     spectrum = service.spectrum(request, progress=True)
@@ -150,5 +150,5 @@ def test_a_study_without_end_is_an_error() -> None:
 
 
 def test_idle_connections_end_before_the_service_closes_them() -> None:
-    """A request that is on its way when the service closes its connection would get no answer."""
+    """If the service closed a connection first, a request on its way would get no answer."""
     assert OPTIONS["limits"].keepalive_expiry < uvicorn.Config("app.main:app").timeout_keep_alive

@@ -1,4 +1,4 @@
-"""The answer without a server: from Python and from a shell."""
+"""The function `answer` and the command `solve` answer requests without a server."""
 
 import io
 import json
@@ -45,7 +45,7 @@ def test_a_refusal_in_process_names_the_field() -> None:
 
 
 def printed(case: Path, monkeypatch: pytest.MonkeyPatch, stream: TextIO) -> int | str | None:
-    """How `solve` ends in this process, with a standard output of another kind."""
+    """Run `solve` in this process with `stream` as standard output, and return the exit status or message."""
     monkeypatch.setattr(sys, "argv", ["tribodrive", "solve", "/v1/coupling", str(case)])
     monkeypatch.setattr(sys, "stdout", stream)
     with pytest.raises(SystemExit) as ended:
@@ -80,7 +80,10 @@ def test_processes_of_servers_do_not_matter(case: Path, monkeypatch: pytest.Monk
 
 @pytest.mark.parametrize("path", ["/v1/coupling", "/v1/nothing"])
 def test_what_cannot_be_printed_ends_with_a_line(path: str) -> None:
-    """The whole process: at its end Python flushes what is left, and complains if it cannot."""
+    """If the standard output is full, the process ends with one line of explanation.
+
+    Python itself would complain if it could not flush the standard output at the end.
+    """
     environment = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "WEB_CONCURRENCY": "a"}
     with Path("/dev/full").open("w") as full:
         ended = subprocess.run(

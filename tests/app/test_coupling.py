@@ -1,4 +1,4 @@
-"""/v1/coupling: the binding names, the paper's numbers end to end, and what is refused."""
+"""The coupling endpoints give the agreed names and the numbers of the paper, and reject invalid requests."""
 
 import json
 from collections.abc import Mapping
@@ -47,7 +47,7 @@ COUPLING, ORBIT, RECOMMENDATION = EXAMPLES
 
 
 def solved(post: Post, changes: Mapping[str, Any] = {}, name: str = EXAMPLES[COUPLING]) -> dict[str, Any]:
-    """The answer of /v1/coupling to an example with changes."""
+    """Return the answer of /v1/coupling to an example with changes."""
     return accepted(post(COUPLING, example(name, changes)))
 
 

@@ -1,4 +1,4 @@
-"""What an answer rests on where a request leaves oil, bulk temperature and friction out: practice, or nothing."""
+"""If a request leaves out oil, bulk temperature or friction, the answer uses an estimate or has no value."""
 
 from dataclasses import MISSING, fields
 from typing import Any
@@ -103,7 +103,10 @@ def test_a_coefficient_of_friction_says_by_itself_that_it_is_given() -> None:
 
 
 def test_the_losses_have_a_friction_of_their_own() -> None:
-    """A mean for the efficiency beside the one on the safe side for scuffing; load factors raise the second alone."""
+    """The losses use a mean coefficient of friction, scuffing uses a larger coefficient.
+
+    Load factors raise only the coefficient for scuffing.
+    """
     power = {"load": {"power_kw": 400, "pinion_speed_rpm": 1500}}
     plain, loaded = (solved(SCUFFING, STAGE, {**power, "load.application_factor": factor}) for factor in (1.0, 2.5))
     for answer, highest in ((plain, 0.82), (loaded, 0.7)):
@@ -121,13 +124,20 @@ def test_the_losses_have_a_friction_of_their_own() -> None:
 
 
 def test_the_scuffing_temperature_is_a_property_of_oil_and_steel() -> None:
-    """It is X_L at the test's 90 C; at the oil temperature it rose from 329 to 353 C between 40 and 80 C."""
+    """The scuffing temperature does not depend on the oil temperature, because X_L is taken at the 90 C of the test.
+
+    With X_L at the oil temperature, the scuffing temperature rose from 329 C (oil at 40 C) to 353 C (oil at 80 C).
+    """
     limits = [solved(SCUFFING, STAGE, {"temperatures.oil_c": oil})["safety"]["scuffing_c"] for oil in (40, 60, 80)]
     assert limits == [pytest.approx(357.99, abs=0.01)] * 3
 
 
 def test_a_hotter_oil_is_never_safer() -> None:
-    """With the bulk left at 86.85 C the same stage seems twice as safe with oil of 80 C as with 40 C."""
+    """With an estimated bulk temperature, a hotter oil lowers the safety factor.
+
+    If the bulk temperature is fixed at 86.85 C, the safety factor with oil at 80 C is about twice as large as with oil
+    at 40 C.
+    """
     oils = (40, 60, 80)
     safe = [solved(SCUFFING, STAGE, {"temperatures.oil_c": oil})["safety"]["blok_factor"] for oil in oils]
     assert safe == [pytest.approx(value, abs=0.01) for value in (14.37, 12.78, 11.45)]
@@ -201,7 +211,10 @@ def test_misalignment_raises_the_coefficient_of_friction_by_the_face_load_factor
 
 
 def test_no_mean_flash_no_bulk() -> None:
-    """The loaded path reaches the base circle of 12 teeth: all that needs no bulk temperature is answered."""
+    """Without a mean flash temperature, the answer has loads, but no results that need the bulk temperature.
+
+    Here the loaded path reaches the base circle of the pinion with 12 teeth.
+    """
     gears = {
         "pinion": {"teeth": 12},
         "wheel": {"teeth": 60},
@@ -255,7 +268,10 @@ def test_a_unit_without_oil_has_no_verdict() -> None:
 
 @pytest.mark.parametrize(("torque", "factor"), [(6.0, 0.25**0.25), (48.0, 1.0)])
 def test_standard_stiffness_of_light_loads_falls_with_their_fourth_root(torque: float, factor: float) -> None:
-    """A spur pair of m 4, 20 teeth, 6 mm wide: 6 N m are 150 N, 25 N/mm; from 100 N/mm on c' is constant."""
+    """The standard stiffness c' grows with the fourth root of the line load up to 100 N/mm, then it is constant.
+
+    A torque of 6 N m on the spur pinion (m 4, 20 teeth, 6 mm wide) gives 150 N, which is 25 N/mm.
+    """
     pair = {"pinion": {"teeth": 20}, "wheel": {"teeth": 40}, "module_mm": 4, "face_width_mm": 6}
     light, full = (
         solved(
@@ -271,7 +287,7 @@ def test_standard_stiffness_of_light_loads_falls_with_their_fourth_root(torque: 
 
 @pytest.mark.parametrize("stiffness", [None, 280])
 def test_the_teeth_of_a_coupling_are_as_stiff_as_their_material(stiffness: float | None) -> None:
-    """Left out it is 280 N/um times E/206 GPa; given it is what it is."""
+    """A stiffness that is left out is 280 N/um times E/206 GPa. A given stiffness does not depend on E."""
     teeth = {"coupling.tooth_stiffness_n_per_um": stiffness}
     steel, bronze = (solved(COUPLED, COUPLING, {**teeth, "coupling.youngs_modulus_gpa": E}) for E in (206, 103))
     used = [answer["derived"]["tooth_stiffness_n_per_um"] for answer in (steel, bronze)]
@@ -301,7 +317,10 @@ def test_a_unit_s_estimates_are_made_for_steel_too() -> None:
 
 
 def test_the_lubricant_factor_of_the_test_is_listed_with_its_value() -> None:
-    """VG 220 has 25.6 mm2/s and 837 kg/m3 at 90 C: 21.4 mPa s, X_L = 0.858; 80 + 2.25 X_L 144 = 358.0 C."""
+    """At 90 C, VG 220 has 25.6 mm2/s and 837 kg/m3, hence 21.4 mPa s and X_L = 0.858.
+
+    The scuffing temperature is then 80 + 2.25 X_L 144 = 358.0 C.
+    """
     path = "temperatures.scuffing_test.lubricant_factor"
     answer = solved(SCUFFING, STAGE, {"temperatures.oil_c": 40})
     told = next(each for each in answer["assumptions"] if each["field"] == path)
@@ -317,7 +336,10 @@ def test_the_lubricant_factor_of_the_test_is_listed_with_its_value() -> None:
 
 
 def test_a_section_under_the_teeth_takes_the_diameter_that_carries_torsion() -> None:
-    """39 teeth of m_n 6, 11.5 degrees: d 238.79 mm less 6 x 1.25 are 231.29 mm."""
+    """The section has the reference diameter less 1.25 modules: 231.29 mm.
+
+    The reference diameter for 39 teeth, m_n 6 mm and 11.5 degrees is 238.79 mm.
+    """
     path = "pinion_shaft.sections.3.outer_diameter_mm"
     by_rule = solved(TRAIN, TURBO, {path: GONE})
     told = {each["field"]: each for each in by_rule["assumptions"]}[path]
@@ -353,12 +375,12 @@ LEFT_OPEN = {
     ("Lubricant", "temperature"): "of a coupling's oil, told where a grade or a data sheet names it",
     ("LoadDistributionInputs", "friction_coefficient"): "scuffing takes the law of friction instead",
 }
-"""Inputs of the solvers whose default the service cannot have, and why."""
+"""Inputs for which the service cannot have the solver's default, each with the reason."""
 
 
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 def test_inputs_of_the_solvers_have_the_defaults_of_the_service_or_none(calculation: Calculation) -> None:
-    """An oil by its viscosity needs its other properties there, for which the service takes the paper's."""
+    """If a solver declares a default for an input, the service has the same default, except in `LEFT_OPEN`."""
     for leaf in leaves(calculation.request):
         record, name = getattr(leaf.declared, "origin", None) or (None, "")
         own = {each.name: each.default for each in fields(record)}.get(name, MISSING) if record else MISSING

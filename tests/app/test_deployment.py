@@ -1,4 +1,4 @@
-"""What deploy/ and the Dockerfile say fits the service; the steps that build the image work."""
+"""The files in deploy/ and the Dockerfile fit the service, and the steps that build the image work."""
 
 import json
 import os
@@ -27,12 +27,12 @@ COUPLING = examples()["pahl-axial-displacement"]
 
 
 def instructions(name: str) -> list[str]:
-    """What stands behind every instruction of this name in the Dockerfile."""
+    """Return the arguments of all instructions of this name in the Dockerfile."""
     return [rest for instruction, rest in DOCKERFILE if instruction == name]
 
 
 def variables() -> dict[str, str]:
-    """The environment that the Dockerfile sets."""
+    """Return the environment variables that the Dockerfile sets."""
     return dict(pair.split("=", 1) for line in instructions("ENV") for pair in shlex.split(line))
 
 
@@ -87,7 +87,11 @@ llvm.get_host_cpu_features = lambda: llvm.FeatureMap(sse2=True)
 
 @pytest.mark.slow
 def test_the_image_has_its_kernels_on_another_processor(tmp_path: Path) -> None:
-    """Its build steps with the first stage alone, then an answer of a process that takes the processor for another."""
+    """The kernels that the build steps of the image compile also run on another processor.
+
+    The test compiles the kernels of couplings only. A process that takes its processor for another type answers a
+    request and leaves these kernels unchanged.
+    """
     source, prefix, elsewhere = tmp_path / "src", tmp_path / "prefix", tmp_path / "elsewhere"
     listed = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True)  # noqa: S607
     left_out = (ROOT / ".dockerignore").read_text().split()

@@ -30,12 +30,15 @@ def test_every_field_has_a_description(document: dict[str, Any]) -> None:
 
 
 def test_every_schema_has_a_name_of_its_own(document: dict[str, Any]) -> None:
-    """Names that two modules share are spelt with their modules, which generated clients cannot take."""
+    """If two modules have models of one name, the names of both schemas contain their modules.
+
+    Generated clients cannot use such names.
+    """
     assert [name for name in document["components"]["schemas"] if "__" in name or "-" in name] == []
 
 
 def test_every_unit_in_a_name_is_stated(document: dict[str, Any]) -> None:
-    """In the field's own name, or at the field that holds its group."""
+    """A field states the unit that its name ends with, or else the unit of its group."""
     of_group = {group(field): field["x-unit"] for _, _, field in fields(document) if group(field) and "x-unit" in field}
     assert of_group == {"PumpingMassFlow": "g/s", "MisalignmentParts": "µm"}
     for schema, name, field in fields(document):
@@ -45,7 +48,7 @@ def test_every_unit_in_a_name_is_stated(document: dict[str, Any]) -> None:
 
 
 def group(field: dict[str, Any]) -> str:
-    """The schema of the group that a field holds, or nothing."""
+    """Return the name of the schema to which a field refers, or an empty text if there is none."""
     return str(field.get("$ref", "")).rpartition("/")[2]
 
 
@@ -61,7 +64,7 @@ def test_every_number_of_a_request_has_a_range() -> None:
 
 
 def kinds(field: dict[str, Any]) -> list[dict[str, Any]]:
-    """The field's schema, its alternatives and the items of its lists."""
+    """Return the schema of a field, the schemas of its alternatives, and those of the items of its lists."""
     alternatives = [field, *field.get("anyOf", ())]
     return [*alternatives, *(kind["items"] for kind in alternatives if "items" in kind)]
 

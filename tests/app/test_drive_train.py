@@ -1,4 +1,4 @@
-"""The contract of /v1/drive-train: its numbers, units, defaults and refusals."""
+"""/v1/drive-train gives the agreed numbers, units and defaults, and rejects invalid requests."""
 
 import json
 from collections.abc import Mapping
@@ -30,7 +30,10 @@ WORKED = {
 
 
 def request(changes: Mapping[str, Any] = {}, name: str = TURBO) -> dict[str, Any]:
-    """An example, in short, changed at dotted paths; the turbo gear is that of the worked example."""
+    """Return the request of an example with `detail` "summary" and with changes at dotted paths.
+
+    The turbo gears, hot and cold, also get the values of the worked example.
+    """
     return example(name, {"detail": "summary", **({} if name == GENERATOR else WORKED), **changes})
 
 
@@ -74,7 +77,10 @@ def test_teeth_yield_before_they_slide_by_default(post: Post) -> None:
 
 @pytest.mark.slow
 def test_the_film_is_asked_by_default(post: Post) -> None:
-    """The hottest place is a point of the profile line: 50 equidistant points alone say 3.0844, 201 points 3.0814."""
+    """The safety factor by thermal EHL is that of the hottest place, a point of the profile line.
+
+    With equidistant points only, this factor is 3.0844 (50 points) or 3.0814 (201 points).
+    """
     safety = answered(post, {"model": GONE})["safety"]
     assert safety["thermal_ehl_profile"] == pytest.approx(3.081, abs=0.001)
     assert safety["minimum"] == safety["blok_flank"]
@@ -352,13 +358,19 @@ def test_bad_values_are_named(post: Post, name: str, value: object) -> None:
 
 
 def test_the_softest_bearing_of_all_is_answered(post: Post) -> None:
-    """1 N/um is in; under the example's load the shaft would leave its coupling, so no effect of shafts here."""
+    """A bearing stiffness of 1 N/um is permitted.
+
+    The effect of the shafts is off, because under this load the shaft would leave its coupling.
+    """
     answered(post, {"effects.shafts": False, **linear([[1, -0.5], [0.5, 1]])})
 
 
 @pytest.mark.parametrize("method", ["given", "estimated"])
 def test_the_limit_may_come_from_a_scuffing_test_and_the_bulk_from_the_supply(post: Post, method: str) -> None:
-    """As of /v1/scuffing for rigid shafts without heat; on the flank the unit is judged at the same numbers."""
+    """Without effects of shafts and heat, the scuffing and bulk temperatures are those of /v1/scuffing.
+
+    The safety factor at the feature line follows from these temperatures.
+    """
     given = {"bulk_method": "given", "bulk_c": 80} if method == "given" else {"bulk_method": method}
     scuffing_test = {"fzg_stage": 9, "lubricant_factor": 0.9}
     temperatures = {"oil_c": 50, **given, "oil_supply": "dip", "scuffing_test": scuffing_test}
@@ -389,7 +401,7 @@ def test_a_film_that_cannot_carry_is_no_solution(post: Post) -> None:
 
 
 def test_oil_by_grade_fills_gears_and_journals(post: Post) -> None:
-    """ISO VG 32 by its sheet: thinner in the warmer film."""
+    """Journals without a viscosity run in the oil of the gears. This oil is thinner in a warmer film."""
     by_oil = {f"{BEARINGS}.{each}.viscosity_pa_s": None for each in (0, 1)}
     films = {f"{BEARINGS}.0.film_temperature_c": 40, f"{BEARINGS}.1.film_temperature_c": 100}
     found = answered(post, {"lubricant": {"iso_vg": 32}, **by_oil, **films})
@@ -413,7 +425,10 @@ def test_friction_by_the_oil_replaces_the_coefficient(post: Post) -> None:
 
 
 def test_a_collar_takes_the_thrust_that_is_reported(post: Post) -> None:
-    """Friction by the coupling's law: the collar holds mesh and coupling at the tilt found, not at a tiny one."""
+    """The collar takes the thrust of mesh and coupling.
+
+    The friction in the coupling follows the friction law at the tilt of the solution, not at a tiny tilt.
+    """
     by_law = {"couplings.0.friction": GONE, "couplings.0.thrust_fraction": 1}
     found = answered(post, {"thrust_collar": {"radius_mm": 128}, **by_law})
     assert found["load"]["face_load_factor"] == pytest.approx(1.671, abs=0.0006)
@@ -427,7 +442,10 @@ def test_a_collar_takes_the_thrust_that_is_reported(post: Post) -> None:
 
 
 def test_spur_gears_have_no_hand(post: Post) -> None:
-    """K_Hbeta 1.463 of either hand; the face begins at the end of high Z where the pinion turns counter-clockwise."""
+    """K_Hbeta of the spur gears is 1.463 for either hand.
+
+    The pinion turns counter-clockwise, so the face begins at the end with the larger Z.
+    """
     spur = {"gears.helix_angle_deg": 0, "detail": "curves"}
     right, left = (answered(post, {**spur, "gears.hand": hand}) for hand in ("right", "left"))
     assert {**left, "inputs": None, "case": None} == {**right, "inputs": None, "case": None}
@@ -436,7 +454,7 @@ def test_spur_gears_have_no_hand(post: Post) -> None:
 
 
 def test_the_sleeve_weighs_on_the_hub(post: Post) -> None:
-    """12 kg a mesh: 117.7 N downwards in the force on the hub, as in the balance."""
+    """The sleeve mass of 12 kg per mesh adds 117.7 N downwards to the force on the hub."""
     (coupling,) = answered(post)["couplings"]
     assert coupling["force_n"] == pytest.approx([5181.3, 2679.7], abs=0.5)
     (weightless,) = answered(post, {"couplings.0.coupling.sleeve_mass_kg": 0.001})["couplings"]
@@ -444,7 +462,10 @@ def test_the_sleeve_weighs_on_the_hub(post: Post) -> None:
 
 
 def test_the_feature_line_s_maximum_is_that_of_any_number_of_points(post: Post) -> None:
-    """It was 2.442, 1.888 and 1.882 with 2, 50 and 500 points."""
+    """The safety factor at the feature line does not depend on the number of points.
+
+    In an earlier version this factor was 2.442, 1.888 and 1.882 with 2, 50 and 500 points.
+    """
     model = {"model.lubrication": "closed_form"}
     found = [answered(post, {**model, "model.path_points": points}) for points in (2, 50, 500)]
     for answer in found:
@@ -456,7 +477,7 @@ def test_the_feature_line_s_maximum_is_that_of_any_number_of_points(post: Post) 
 
 
 def test_the_gears_oil_is_told_and_a_thick_one_is_named(post: Post) -> None:
-    """VG 680 at 5 C has 13 Pa s, which only its law tells."""
+    """By its viscosity law, VG 680 has 13 Pa s at 5 C. The answer warns of this viscosity."""
     cold = {"oil_c": 0, "bulk_method": "given", "bulk_c": 5, "scuffing_c": 220}
     found = answered(post, {"lubricant": {"iso_vg": 680}, "temperatures": cold})
     oil = found["derived"]["lubricant"]
@@ -477,7 +498,7 @@ def test_without_an_oil_none_is_told(post: Post) -> None:
 
 
 def test_a_cold_unit_without_solution_is_a_warning(post: Post) -> None:
-    """VG 680 at -50 C is no oil any more; the hot unit has its answer."""
+    """VG 680 is too thick at -50 C, so the cold unit has no solution. The hot unit has an answer."""
     oil = {"lubricant": {"iso_vg": 680}, "temperatures": {"oil_c": 50, "scuffing_c": 220}}
     found = answered(post, {"states": BOTH, **oil, "thermal.reference_c": -50})
     assert found["states"]["cold"] is None
@@ -493,7 +514,10 @@ def test_the_example_has_no_unusual_value(post: Post) -> None:
 
 
 def test_losses_beyond_the_power_leave_no_efficiency(post: Post) -> None:
-    """100 kW through the unit of 12 MW was an efficiency of -0.19, 1 kW one of -118."""
+    """If the losses exceed the power, the answer has no efficiency.
+
+    In an earlier version, the unit for 12 MW had an efficiency of -0.19 at 100 kW and of -118 at 1 kW.
+    """
     for power, losses in ((100, 119.5), (1, 119.2)):
         found = answered(post, {"operation.power_kw": power})
         assert found["losses"]["efficiency"] is None
@@ -507,7 +531,10 @@ HARD_UNITS: dict[str, dict[str, Any]] = json.loads(Path(__file__).with_name("har
 
 @pytest.mark.parametrize("name", HARD_UNITS)
 def test_units_that_had_no_solution_have_one(post: Post, name: str) -> None:
-    """Found among 2,500 random units: friction that falls with sliding, hubs that stick, steps that were too wild."""
+    """In an earlier version, 2,500 random units were tried, and these units had no solution.
+
+    The reasons were friction that falls with sliding, hubs that stick, and too large steps.
+    """
     found = accepted(post(PATH, {**HARD_UNITS[name]["request"], "detail": "summary"}))
     assert found["status"] != "no_solution"
     assert found["load"]["face_load_factor"] == pytest.approx(HARD_UNITS[name]["face_load_factor"], rel=1e-5)
@@ -517,7 +544,7 @@ def test_units_that_had_no_solution_have_one(post: Post, name: str) -> None:
 
 
 def test_torque_may_enter_at_the_very_end_of_a_shaft(post: Post) -> None:
-    """The end is a sum of lengths, which rounds."""
+    """Torque may enter at the end of a shaft, although rounding changes the position of the end."""
     shaft = {f"{SECTIONS}.5.length_mm": 150.1, "pinion_shaft.start_mm": 0.1}
     for position in (0.1, 0.1 + 150 + 140 + 30 + 200 + 30 + 150.1):
         found = answered(post, {**shaft, "pinion_shaft.torque_position_mm": position})
@@ -525,7 +552,10 @@ def test_torque_may_enter_at_the_very_end_of_a_shaft(post: Post) -> None:
 
 
 def test_the_cold_unit_s_contact_is_cold(post: Post) -> None:
-    """Teeth at 20 C where no bulk temperature is given: S 5.98, which was 1.77 with the hot teeth's mean."""
+    """If no bulk temperature is given, the teeth of the cold unit have 20 C: the safety factor is 5.98.
+
+    In an earlier version, they had the mean temperature of the hot teeth, and the safety factor was 1.77.
+    """
     given = answered(post, {"states": BOTH})
     assert given["derived"]["temperatures"]["bulk_c"] == pytest.approx(95)
     assert given["states"]["cold"]["derived"]["temperatures"]["bulk_c"] == pytest.approx(95)

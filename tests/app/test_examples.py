@@ -1,4 +1,4 @@
-"""Every example is listed, runs as it stands and answers with finite numbers."""
+"""Every example is in the list, can be sent unchanged, and gives an answer with finite numbers."""
 
 import json
 from itertools import pairwise
@@ -61,7 +61,7 @@ def test_example_is_answered_alike_by_two_processes_and_detail_only_adds(post: P
 
 
 def assert_contained(less: object, more: object) -> None:
-    """Everything in `less` stands in `more`, the same."""
+    """Check that `more` contains everything in `less`, with the same values."""
     if isinstance(less, dict) and isinstance(more, dict):
         for key, value in less.items():
             assert_contained(value, more[key])

@@ -1,4 +1,7 @@
-"""Figures of thirty drawn cases: no text lies over another, over a mark or beyond the sheet; numbers are in order."""
+"""In the figures of random cases, no text is cut off or lies over another text or a mark.
+
+Numbers have the format of the tables, and the numbers of a bar are in order.
+"""
 
 import re
 from collections.abc import Iterator
@@ -24,7 +27,11 @@ SEED = 46
 
 
 def collisions(figure: Figure) -> Iterator[str]:
-    """Texts that are cut or lie over others, over marks; legends over curves; names of ticks that are cut."""
+    """Yield a message for every collision in a figure.
+
+    Collisions are texts that are cut off or overlap other texts or marks, legends inside the axes, and tick labels that
+    overlap.
+    """
     yield from faults(figure)
     with themed("light"):
         _, drawn = laid_out(figure)
@@ -35,7 +42,7 @@ def collisions(figure: Figure) -> Iterator[str]:
 
 
 def _over_marks(axes: Axes) -> Iterator[str]:
-    """Texts over the ring of a marked point, which lies above all else."""
+    """Yield a message for every text that overlaps the ring of a marked point."""
     rings = [line for line in axes.lines if line.get_marker() == "o" and not line.get_clip_on()]
     for ring in rings:
         (x, y), *_ = axes.transData.transform(np.asarray(ring.get_xydata()))
@@ -54,7 +61,7 @@ def _legend_over_curves(axes: Axes) -> Iterator[str]:
 
 
 def _ticks_over_each_other(axes: Axes) -> Iterator[str]:
-    """Names of ticks that touch their neighbours, so that two numbers read as one."""
+    """Yield a message for every two tick labels that overlap, because they look like one number."""
     for labels in (axes.get_xticklabels(), axes.get_yticklabels()):
         shown = [text for text in labels if text.get_text() and text.get_visible()]
         for one, other in combinations(shown, 2):

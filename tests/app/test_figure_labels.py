@@ -1,4 +1,4 @@
-"""Names of marked points stand at their own points; no text is cut, none lies over another; awkward data are drawn."""
+"""Names stand at their points, no text is cut off or overlaps another text, and unusual data are drawn."""
 
 import random
 import re
@@ -54,7 +54,7 @@ TOUCH = 0.025  # inches by which the boxes of two texts may meet: the room above
 
 
 def boxes(figure: Figure) -> tuple[list[tuple[str, Bbox]], Bbox]:
-    """Every text drawn of a figure with the box it fills, and the sheet's own box, in inches."""
+    """Return all texts of a figure with their bounding boxes, and the box of the sheet, in inches."""
     drawn: list[Text] = []
 
     def draw_text(text: Text, _: RendererBase) -> None:
@@ -71,7 +71,7 @@ def boxes(figure: Figure) -> tuple[list[tuple[str, Bbox]], Bbox]:
 
 
 def faults(figure: Figure) -> Iterator[str]:
-    """Texts that are cut, and texts that lie over others."""
+    """Yield a message for every text that is cut off, and for every two texts that overlap."""
     texts, sheet = boxes(figure)
     assert texts
     for text, box in texts:
@@ -84,7 +84,7 @@ def faults(figure: Figure) -> Iterator[str]:
 
 
 def figures(example: Example) -> Iterator[Figure]:
-    """What is drawn of an example."""
+    """Yield all figures of an example."""
     calculation = BY_PATH[example.endpoint]
     request = calculation.request.model_validate({**example.request, "detail": "fields"})
     answer = evaluate(calculation, request)
@@ -113,7 +113,7 @@ def test_no_text_of_an_example_is_cut_or_over_another(name: str) -> None:
 
 
 def test_a_figure_in_a_column_of_a_report_has_no_collisions() -> None:
-    """One that would have some keeps the whole width."""
+    """A figure that would have collisions in a column keeps its whole width."""
     figure = Figure("a finding", (PANEL,), title="two peaks")
     narrow, image = draw_for_report(figure)
     assert narrow.narrow
@@ -136,7 +136,7 @@ def test_numbers_of_neighbouring_ticks_keep_a_distance(narrow: bool) -> None:
 
 
 def test_the_coupling_on_its_map_of_friction_hides_no_area() -> None:
-    """The point anywhere on the map."""
+    """No texts overlap, wherever the point of the coupling lies on the map."""
     example = examples()["starter-turbo-coupling"]
     (map_of_regimes,) = (each for each in figures(example) if each.title == "Friction regime of the coupling")
     (panel,) = map_of_regimes.panels
@@ -149,7 +149,7 @@ def test_the_coupling_on_its_map_of_friction_hides_no_area() -> None:
 
 
 def texts(panel: Panel, theme: ThemeName = "light") -> dict[str, tuple[str, float]]:
-    """Colour and height from the bottom of every text, by the text."""
+    """Return the style and the height (-y of the SVG) of every text in a panel. The keys are the texts."""
     image = draw(Figure("", (panel,), title="two peaks"), "svg", theme).decode()
     found = re.findall(r'<text style="([^"]*)" x="[\d.]+" y="([\d.]+)"[^>]*>([^<]*)</text>', image)
     assert found
@@ -177,7 +177,7 @@ def test_the_name_of_a_single_curves_point_is_plain_ink() -> None:
 
 
 def test_maps_side_by_side_name_a_common_ordinate_once() -> None:
-    """The second name would meet that of the colours."""
+    """Only the first map names a common ordinate. A second name would overlap the name of the colour bar."""
     x = values(X[:5])
     chart = Map("gap between the unloaded flanks", "µm", x, x, values(np.outer(x, x)))
     first = Panel(x=Axis("face"), y=Axis("profile (0: A, 1: E)"), map=chart)
@@ -222,7 +222,7 @@ def test_result_curves_of_one_hue_differ_by_their_dashes() -> None:
 
 
 def leaders(panel: Panel) -> list[tuple[Annotation, float]]:
-    """Lines that lead to the texts of points, with their lengths [in]."""
+    """Return the texts of points that have a leader line, with the lengths of these lines [in]."""
     with themed("light"):
         _, (axes,) = laid_out(Figure("", (panel,), title="two peaks"))
         annotations = [text for text in axes.texts if isinstance(text, Annotation) and text.arrow_patch is not None]
@@ -230,7 +230,7 @@ def leaders(panel: Panel) -> list[tuple[Annotation, float]]:
 
 
 def test_a_line_leads_to_the_text_of_a_point_only_where_it_stands_far_from_the_point() -> None:
-    """The point lies among lines that leave no room beside it."""
+    """A text far from its point has a leader line. Here 25 lines leave no room near the point."""
     assert not leaders(PANEL)
     crowd = tuple(Line("a", values(X), values(level + 0.0 * X), Hue.GREY) for level in np.linspace(0.0, 2.4, 25))
     found = leaders(replace(PANEL, lines=crowd, marks=(Mark(0.5, 1.2, "1.2"),), y=Axis("load", limits=(0.0, 4.0))))
@@ -241,7 +241,7 @@ def test_a_line_leads_to_the_text_of_a_point_only_where_it_stands_far_from_the_p
 
 
 def test_texts_are_placed_on_the_axes_that_are_drawn() -> None:
-    """Equal scales on both axes widen one of them."""
+    """The axes keep their limits after the texts are placed, although equal scales widen one of the axes."""
     angle = np.linspace(0.0, 2.0 * np.pi, 73)
     circle = Line("path", values(np.cos(angle)), values(np.sin(angle)))
     panel = Panel(x=Axis("x", magnitude=False), y=Axis("y", magnitude=False), lines=(circle,), equal=True)
@@ -300,7 +300,7 @@ def test_awkward_data_are_drawn(name: str) -> None:
 
 
 def test_limits_far_from_the_values_are_named_at_the_edge() -> None:
-    """They would flatten the curve."""
+    """A limit far from the values is named at the edge. An axis up to this limit would flatten the curve."""
     levels = (Level(300.0, "yield point", limit=True), Level(3.0, "endurance limit", limit=True))
     panel = replace(PANEL, levels=levels, marks=())
     (place,) = places(Figure("", (panel,), title="two peaks"))

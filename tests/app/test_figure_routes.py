@@ -1,4 +1,4 @@
-"""Figures by their addresses."""
+"""Every figure has an address at which the service draws it, in several formats and two themes."""
 
 import csv
 import io

@@ -1,4 +1,4 @@
-"""Every figure exists, shows the answer's numbers, and is written as declared."""
+"""Every figure exists, shows the numbers of the answer, and is written as an image and as a table."""
 
 import csv
 import io
@@ -101,7 +101,7 @@ def drawn_of(endpoint: str, which: str, request: Any, answer: Any) -> Figure:
 
 
 def reason_to_leave_out(name: str, which: str) -> str | None:
-    """Why an example lacks a figure; None where it has it."""
+    """Return the code of the reason why an example lacks a figure, or None if the example has the figure."""
     request, _ = solved(name)
     if which in MICROPITTING and request.micropitting is None:
         return "not_asked"
@@ -115,7 +115,10 @@ def reason_to_leave_out(name: str, which: str) -> str | None:
 
 
 def figures(name: str) -> Iterator[tuple[str, Figure]]:
-    """All figures of an example; those that it lacks, and no others, are refused for their reason."""
+    """Yield the figures of an example with their names.
+
+    Check that a figure that the example lacks is refused with the expected code.
+    """
     for declaration in BY_PATH[examples()[name].endpoint].figures:
         reason = reason_to_leave_out(name, declaration.name)
         if reason is None:
@@ -127,7 +130,10 @@ def figures(name: str) -> Iterator[tuple[str, Figure]]:
 
 
 def numbers(model: Documented, unit: str | None = None) -> Iterator[tuple[str | None, Any]]:
-    """Every number and array of numbers of an answer with the symbol of its unit; a group hands its unit down."""
+    """Yield all numbers and arrays of an answer, each with the symbol of its unit.
+
+    A member without a unit of its own has the unit of its group.
+    """
     for member in members(type(model)):
         value, own = getattr(model, member.name), member.unit.symbol if member.unit else unit
         items = value if isinstance(value, list) else [value]
@@ -141,7 +147,10 @@ def numbers(model: Documented, unit: str | None = None) -> Iterator[tuple[str | 
 
 
 def answered(answer: Documented, unit: str | None, shown: np.ndarray[Any, Any]) -> bool:
-    """Whether an array of the answer in this unit holds the numbers shown, a closing point or a gap aside."""
+    """Return whether an array of the answer, or a row of it, has this unit and equals the shown numbers.
+
+    Gaps are ignored. The shown numbers may end with a copy of the first number.
+    """
     known = shown[np.isfinite(shown)]
     for own, array in numbers(answer):
         if own != unit or isinstance(array, float):
@@ -288,7 +297,10 @@ def test_choking_scan_repeats_the_pumping_endpoint_and_crosses_its_limits_at_the
 
 
 def test_the_curve_of_choking_bends_where_gas_reaches_an_end_supersonic() -> None:
-    """It does at every resolution tried; below, the Mach number that the ambient pressure asks for rises steadily."""
+    """Above the bend, gas reaches an end of the face at supersonic speed.
+
+    The Mach number of an expansion to ambient pressure then rises less than half as fast with the speed.
+    """
     request, _ = solved("starter-choking-speed")
     assert "bend" in figure("starter-choking-speed", "choking").finding
     mesh = prepare(request.inputs().setup)
@@ -300,7 +312,10 @@ def test_the_curve_of_choking_bends_where_gas_reaches_an_end_supersonic() -> Non
 
 
 def partly_unsolved() -> tuple[Any, Any]:
-    """A thermal path with two unsolved points, one of them alone between solved ones, and two warned ones."""
+    """Return a request, and an answer whose thermal path has two unsolved and two warned points.
+
+    A single solved point lies between the unsolved points.
+    """
     request, answer = solved("xue-pair-1-scuffing")
     count = len(answer.path.psi)
     status = ["ok"] * count
@@ -418,7 +433,7 @@ def test_comparison_draws_the_variant_dashed_in_the_same_hue() -> None:
     ],
 )
 def test_every_figure_of_an_example_is_drawn(name: str, image_format: str, theme: Any) -> None:
-    """Those of all examples are drawn by the test of their labels."""
+    """The figures of all examples are drawn in `test_figure_labels.py`."""
     for which, data in figures(name):
         assert len(draw(data, image_format, theme)) > 5_000, which
 

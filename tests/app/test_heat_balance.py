@@ -1,4 +1,4 @@
-"""The heat balance of a pair in requests and answers: when it is taken, what it says, what is refused and drawn."""
+"""The service uses, reports and draws the heat balance of pairs and units, and rejects contradictory requests."""
 
 import json
 import pickle
@@ -93,7 +93,10 @@ def test_the_estimate_keeps_its_warning_and_its_numbers() -> None:
 
 
 def test_the_worked_pair() -> None:
-    """The network's own example, fed with its mesh loss: flanks, bodies, mist, conductances within 0.1 K."""
+    """With the mesh loss of the worked example, the temperatures agree within 0.1 K.
+
+    The conductances to the oil agree within 3 W/K.
+    """
     oil = {
         "viscosity_pa_s": 0.0095,
         "reference_temperature_c": 86.85,
@@ -338,7 +341,10 @@ def test_the_service_answers_it(client: httpx.Client) -> None:
 
 
 def check(request: dict[str, Any]) -> str:
-    """Solve a pair and hold its balance against what holds for every pair; return its status, or what refuses it."""
+    """Solve a pair, and check what holds for every heat balance.
+
+    Return "ok", "no_solution", or the code of the error that rejects the pair.
+    """
     try:
         found = solved(SCUFFING, request)
     except Unprocessable as refusal:
@@ -476,7 +482,10 @@ def started(changes: Mapping[str, Any] = MappingProxyType({})) -> dict[str, Any]
 
 
 def test_a_unit_that_starts_from_cold() -> None:
-    """From the temperature of the start to the running unit; the pinion is ahead for the first minutes."""
+    """A warm-up begins at 20 C and ends at the temperatures of the running unit.
+
+    The pinion warms up faster than the wheel. Their bodies differ most after 2 to 3 minutes.
+    """
     found, running = started(), unit({"cooling.casing": {"area_m2": 8, "mass_kg": 2500}})
     warm = found["warm_up"]
     final = dict(zip(warm["nodes"], warm["final_c"], strict=True))
@@ -501,7 +510,10 @@ def test_a_unit_that_starts_from_cold() -> None:
 
 
 def test_the_worked_warm_up() -> None:
-    """From 50 C 95 % after 280 to 340 and 770 to 840 s; from 20 C the bodies differ by 19.7 K at 153 s."""
+    """From 50 C, 95 % of the warm-up takes the pinion about 280 to 340 s and the wheel about 770 to 840 s.
+
+    From 20 C, the temperatures of their bodies differ most after 153 s, by 19.7 K.
+    """
     plain = {"cooling.casing": GONE, "cooling.gear_flow_l_per_min": 140.08, "friction_coefficient": 0.04}
     found = started({**plain, "start_c": 50, "until_s": GONE})
     warm = found["warm_up"]
@@ -544,7 +556,7 @@ def test_a_slow_unit_warms_up_by_its_balance_too() -> None:
 
 @pytest.mark.parametrize("name", [STARTER, TURBO, COLD])
 def test_results_and_answers_can_be_kept(name: str) -> None:
-    """Pages keep them in bytes."""
+    """Requests and results can be pickled, because pages keep them as bytes."""
     example = examples()[name]
     calculation = BY_PATH[example.endpoint]
     request = calculation.request.model_validate(example.request)

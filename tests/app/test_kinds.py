@@ -1,7 +1,7 @@
-"""Every default belongs to the kind that it stands for: of oil, material, lubrication and speed.
+"""Every default follows the kind of oil, the material, the lubrication or the speed to which it belongs.
 
-A default that says that it follows a kind is looked up by its reason, whichever field and endpoint it belongs to. So a
-default that is added later is checked as well.
+The tests find a default by the reason that the answer states for it, whatever its field and endpoint are. So a default
+that is added later is checked as well.
 """
 
 from typing import Any
@@ -32,7 +32,7 @@ def answer(use: str, oil: dict[str, Any]) -> dict[str, Any]:
 
 
 def assumed(found: dict[str, Any], word: str, path: str = "") -> dict[str, Any]:
-    """The assumptions below a path whose reason has a word."""
+    """Return the assumed values whose fields begin with `path` and whose reasons contain `word`."""
     listed = found["assumptions"]
     return {
         each["field"]: each["value"] for each in listed if word in each["reason"] and each["field"].startswith(path)
@@ -40,7 +40,7 @@ def assumed(found: dict[str, Any], word: str, path: str = "") -> dict[str, Any]:
 
 
 def of_the_oil(use: str, found: dict[str, Any]) -> dict[str, Any]:
-    """What an answer derived of its oil."""
+    """Return the derived values that an answer states for its oil."""
     derived = found["derived"]
     for name in USES[use][2].split("."):
         derived = derived[int(name)] if isinstance(derived, list) else derived.get(name, derived)
@@ -51,7 +51,10 @@ def of_the_oil(use: str, found: dict[str, Any]) -> dict[str, Any]:
 @pytest.mark.parametrize("sheet", SHEETS)
 @pytest.mark.parametrize("use", USES)
 def test_every_default_by_the_kind_of_oil_differs_from_a_mineral_oil_s(use: str, sheet: str) -> None:
-    """The default properties differ between kinds of oil. The specific heat differs for polyalphaolefins only."""
+    """The default properties of a synthetic oil differ from those of a mineral oil.
+
+    The specific heat differs for polyalphaolefins only.
+    """
     path = USES[use][2]
     mineral = assumed(answer(use, {**SHEETS[sheet], "kind": "mineral"}), "kind of oil", path)
     assert len(mineral) >= 2
@@ -81,7 +84,7 @@ def test_an_oil_has_the_index_and_the_properties_of_its_kind(use: str, kind: Oil
 
 @pytest.mark.parametrize("grade", GRADES)
 def test_synthetic_oils_of_a_grade_are_thicker_when_hot_and_thinner_when_cold(grade: int) -> None:
-    """By their index, in the order of their kinds, at every grade."""
+    """From mineral oil over polyalphaolefin to polyglycol, the viscosity rises at 90 C and falls at 10 C."""
     for temperature, sign in ((90.0, 1), (10.0, -1)):
         derived = [
             of_the_oil("coupling", answer("coupling", {"iso_vg": grade, "kind": kind, "temperature_c": temperature}))
@@ -94,7 +97,7 @@ def test_synthetic_oils_of_a_grade_are_thicker_when_hot_and_thinner_when_cold(gr
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_friction_and_scuffing_temperature_have_the_factors_of_the_kind(kind: OilKind) -> None:
-    """An oil of one viscosity, so that nothing but the kind differs."""
+    """Both oils have the same viscosity, so that only the kind of oil differs."""
     mineral, other = (
         solved(SCUFFING, STAGE, {"lubricant": {"viscosity_pa_s": 0.02, "kind": each}}) for each in ("mineral", kind)
     )
@@ -123,7 +126,10 @@ def test_every_default_by_the_material_follows_it(modulus: float) -> None:
 
 
 def test_the_bulk_has_the_share_of_its_lubrication() -> None:
-    """Spray is the default and takes on 1.2 of the mean flash temperature's share, dip 1, submerged gears 0.2."""
+    """The bulk is hotter than the oil by a share of the mean flash temperature.
+
+    The lubrication multiplies this share by 1.2 (spray, the default), 1 (dip) or 0.2 (submerged gears).
+    """
     bulk = {
         supply: solved(SCUFFING, STAGE, {"temperatures.oil_supply": supply})["contact_temperature"]["bulk_c"]
         for supply in OIL_SUPPLY_FACTOR
@@ -137,7 +143,7 @@ def test_the_bulk_has_the_share_of_its_lubrication() -> None:
 
 @pytest.mark.parametrize(("velocity", "warned"), [(59.0, False), (61.0, True), (120.0, True)])
 def test_an_estimate_beyond_its_speed_says_so(velocity: float, warned: bool) -> None:
-    """The working pitch radius of the stage is 50.78 mm."""
+    """The answer warns if the pitch-line velocity exceeds 60 m/s. The pinion's pitch radius is 50.78 mm."""
     speed = velocity / 50.776e-3 * 9.5493
     load = {"pinion_torque_n_m": 477.5, "pinion_speed_rpm": speed}
     found = solved(SCUFFING, STAGE, {"load": load, "temperatures.bulk_method": "estimated"})

@@ -1,4 +1,4 @@
-"""/v1/scuffing/line-contact: the binding names, the paper's contact end to end, and what is refused."""
+"""/v1/scuffing/line-contact gives the agreed names and the contact of the paper, and rejects invalid requests."""
 
 from collections.abc import Mapping
 from typing import Any

@@ -1,4 +1,4 @@
-"""The thread that writes the log goes on whatever it is given."""
+"""The log continues after a line that cannot be formatted or written."""
 
 import io
 import logging

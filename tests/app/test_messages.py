@@ -1,4 +1,4 @@
-"""A refused request says in an engineer's words what to change."""
+"""If the service rejects a request, the message says what to change, in the words of an engineer."""
 
 from dataclasses import replace
 from typing import Any

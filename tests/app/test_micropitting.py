@@ -1,4 +1,4 @@
-"""Micropitting in requests and answers: what is asked, refused, assumed, judged and drawn."""
+"""The service judges and draws micropitting, states its assumptions, and rejects invalid requests."""
 
 from typing import Any
 

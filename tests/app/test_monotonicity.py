@@ -1,4 +1,7 @@
-"""What physics demands of random industrial requests with the defaults in force, whatever they leave out."""
+"""If one input of a random industrial request changes, the answer changes in the direction that physics demands.
+
+The requests leave fields out, so the defaults are in force.
+"""
 
 import json
 from functools import lru_cache
@@ -17,7 +20,10 @@ ROUNDING = 1e-6
 
 
 def industrial(seed: int) -> dict[str, Any]:
-    """A gear stage as gearbox makers have them: 250 to 500 MPa nominal, 3 to 35 m/s, an oil by its grade."""
+    """Return the request for a random gear stage of industrial size.
+
+    The pitch-line velocity is 3 to 35 m/s. The tooth force is 25 to 60 N per mm of face and mm of module.
+    """
     rng = np.random.default_rng([22, seed])
     teeth, module = int(rng.integers(18, 36)), float(rng.choice((2, 3, 4, 5, 6, 8, 10)))
     helix, width = float(rng.choice((0, 8, 10, 12, 15, 20))), float(rng.uniform(8, 14)) * module
@@ -59,14 +65,15 @@ def answer_to(endpoint: str, body: str) -> dict[str, Any]:
 
 
 def answers(body: dict[str, Any], path: str, *values: Any, endpoint: str = SCUFFING) -> list[dict[str, Any]]:
-    """The answers to a body with these values at a path; what several checks ask for is calculated once."""
+    """Return the answers to a body with each of these values at a path. Recent answers are reused."""
     return [answer_to(endpoint, json.dumps(changed(body, {path: value}), sort_keys=True)) for value in values]
 
 
 def check_oil_temperature(body: dict[str, Any]) -> None:
-    """An oil 15 K hotter is no safer.
+    """Check that the safety factor by Blok does not rise if the oil is 15 K hotter.
 
-    By thermal EHL it may be by percents, and the answer says so: the film is full, and its friction falls as it thins.
+    The safety factor by thermal EHL may rise by up to 5 %: the film is full, and its friction falls as the film thins.
+    The answer then says so.
     """
     oil = body["temperatures"]["oil_c"]
     cool, hot = answers(body, "temperatures.oil_c", oil, oil + 15)
@@ -81,7 +88,7 @@ def check_oil_temperature(body: dict[str, Any]) -> None:
 
 
 def check_torque(body: dict[str, Any], temperature: str) -> None:
-    """A torque 20 % larger is no cooler."""
+    """Check that the contact and bulk temperatures do not fall if the torque is 20 % larger."""
     torque = body["load"]["pinion_torque_n_m"]
     light, heavy = answers(body, "load.pinion_torque_n_m", torque, 1.2 * torque)
     assert heavy["contact_temperature"][temperature] >= light["contact_temperature"][temperature] - ROUNDING
@@ -89,14 +96,17 @@ def check_torque(body: dict[str, Any], temperature: str) -> None:
 
 
 def check_viscosity(body: dict[str, Any], film: str) -> None:
-    """The next thicker grade has no thinner film."""
+    """Check that the film does not get thinner with the next thicker grade."""
     grade = body["lubricant"]["iso_vg"]
     thin, thick = answers(body, "lubricant.iso_vg", grade, GRADES[GRADES.index(grade) + 1])
     assert thick["film"][film] >= thin["film"][film] * (1 - ROUNDING)
 
 
 def check_misalignment(body: dict[str, Any]) -> None:
-    """A uniform pair's face load factor does not fall with its helix slope, of either sign."""
+    """Check that the face load factor does not fall if the helix slope grows, for both signs.
+
+    The pair has no modifications other than the helix slope.
+    """
     uniform = {name: body[name] for name in ("gears", "load")}
     for sign in (-1.0, 1.0):
         slopes = (0.0, sign * 5.0, sign * 15.0, sign * 40.0)

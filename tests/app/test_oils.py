@@ -1,4 +1,4 @@
-"""Oils that none can be, and oils used where no law describes them, are refused by name wherever an oil is taken."""
+"""Every endpoint with an oil rejects impossible oils, and oils at temperatures where no law describes them."""
 
 from typing import Any
 
@@ -30,7 +30,7 @@ USES: dict[str, tuple[str, dict[str, Any], str, tuple[str, ...]]] = {
 
 
 def outcome(use: str, oil: dict[str, Any], temperatures: list[float]) -> Unprocessable | None:
-    """How the request was refused, or None where it was answered."""
+    """Return the error that rejects the request, or None if the request is answered."""
     endpoint, body, path, places = USES[use]
     calculation = BY_PATH[endpoint]
     request = changed(body, {path: dict(oil), **dict(zip(places, temperatures, strict=True)), "detail": "summary"})
@@ -43,7 +43,10 @@ def outcome(use: str, oil: dict[str, Any], temperatures: list[float]) -> Unproce
 
 @pytest.mark.parametrize("use", USES)
 def test_an_oil_whose_index_none_has_is_refused_at_its_field(use: str) -> None:
-    """5000 and 1 mm2/s at 40 and 100 C: a viscosity index of -10^6, and an overflow of Walther's law at -50 C."""
+    """Viscosities of 5000 mm2/s at 40 C and 1 mm2/s at 100 C correspond to an index of -10^6.
+
+    At -50 C, Walther's law would overflow for this oil.
+    """
     refusal = outcome(use, WAX, [-50.0] * len(USES[use][3]))
     assert isinstance(refusal, Unprocessable)
     assert (refusal.code, refusal.path) == ("viscosity_index", f"{USES[use][2]}.kinematic_viscosity_100_mm2_per_s")
@@ -51,7 +54,10 @@ def test_an_oil_whose_index_none_has_is_refused_at_its_field(use: str) -> None:
 
 @pytest.mark.parametrize("use", USES)
 def test_an_oil_too_cold_to_flow_is_refused_at_its_field(use: str) -> None:
-    """VG 680 at -45 C: 10^8 mm2/s; at -50 C it gave a coupling 8.9e7 N of capacity without a warning."""
+    """VG 680 has 10^8 mm2/s at -45 C.
+
+    In an earlier version, VG 680 at -50 C gave a coupling a capacity of 8.9e7 N without a warning.
+    """
     refusal = outcome(use, {"iso_vg": 680}, [-45.0] * len(USES[use][3]))
     assert isinstance(refusal, Unprocessable)
     assert (refusal.code, refusal.path) == ("oil_too_thick", f"{USES[use][2]}.iso_vg")
@@ -70,7 +76,7 @@ def test_a_coupling_s_oil_that_is_very_thick_is_warned_of(oil: dict[str, Any], f
 
 
 def random_oil(draw: Generator, use: str) -> dict[str, Any]:
-    """Any oil that the schema of a use allows: a grade, a sheet, or a viscosity."""
+    """Return a random oil that the schema of a use allows: a grade, a data sheet or a viscosity."""
     match draw.integers(3):
         case 0:
             return {"iso_vg": int(draw.choice(GRADES))}
@@ -89,7 +95,7 @@ def random_oil(draw: Generator, use: str) -> dict[str, Any]:
 @pytest.mark.slow
 @pytest.mark.parametrize("use", USES)
 def test_any_oil_at_any_temperature_is_answered_or_refused_at_a_field(use: str) -> None:
-    """An answer holds finite numbers only, or its validation raises; 60 oils."""
+    """The test tries 60 random oils. If a number in an answer were not finite, an error would be raised."""
     draw = np.random.default_rng(14)
     outcomes = [
         outcome(use, random_oil(draw, use), list(draw.uniform(-50.0, 300.0, len(USES[use][3])))) for _ in range(60)

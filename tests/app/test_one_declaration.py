@@ -1,6 +1,7 @@
-"""An input is one declaration and its use, an output one declaration and its value, an endpoint one row and its solver.
+"""A new input, a new output or a new endpoint of a calculation is declared in one place.
 
-Nothing else of `app` is touched.
+An input needs one declaration and its use in the solver. An output needs one declaration and its value. An endpoint
+needs one row and its solver. Nothing else of `app` changes.
 """
 
 import asyncio
@@ -39,7 +40,7 @@ from solvers.quantity import quantities, quantity, record
 
 @record
 class Spring:
-    """A spring under load; lengths [m], forces [N]."""
+    """A spring under load. Lengths are in m, forces are in N."""
 
     force: float = quantity("force", "F", unit="n", ge=0, le=1e4)
     stiffness: float = quantity("stiffness", "k", "Hooke 1678", unit="n_per_um", default=2.0, gt=0, le=100)
@@ -47,7 +48,7 @@ class Spring:
 
 @record
 class Deflection:
-    """What a spring does under load."""
+    """The result for a spring under load."""
 
     deflection: float = quantity("deflection", "s", unit="um")
     warnings: tuple[Notice, ...] = ()
@@ -55,7 +56,7 @@ class Deflection:
 
 @record
 class LongSpring(Spring):
-    """With one input more: this declaration."""
+    """A spring with one more input, which needs only this declaration."""
 
     preload: float = quantity(
         "preload", "F_0", unit="n", default=10.0, ge=0, le=100, tolerance=0.5, assumed="order of magnitude"
@@ -64,7 +65,7 @@ class LongSpring(Spring):
 
 @record
 class LongDeflection:
-    """With one output and one curve more: these declarations."""
+    """A result with one more output and one more curve, which need only these declarations."""
 
     deflection: float = quantity("deflection", "s", unit="um")
     energy: float = quantity("stored energy", "W", unit="j", text="of the spring under load")
@@ -78,20 +79,20 @@ def solve(spring: Spring) -> Deflection:
 
 
 def solve_long(spring: LongSpring) -> LongDeflection:
-    """Uses the preload: without its use the input would move nothing."""
+    """Compute the result of a spring with preload. If `preload` were not used here, it would change no output."""
     total = spring.force + spring.preload
     load = np.linspace(0.0, total, 3)
     return LongDeflection(total / spring.stiffness, total**2 / (2 * spring.stiffness), load, load / spring.stiffness)
 
 
 def calculation(inputs: type[Any], result: type[Any], solver: Any) -> Calculation:
-    """What the service makes of a solver: written once, whatever its dataclasses declare."""
+    """Return the calculation for a solver of springs. Its code is the same whatever the dataclasses declare."""
 
     class SpringSection(Section, of=inputs):
-        """The spring."""
+        """The section of the request that describes the spring."""
 
     class SpringRequest(Request):
-        """One spring."""
+        """A request for one spring."""
 
         spring: Annotated[SpringSection, Input("spring")]
 
@@ -102,7 +103,7 @@ def calculation(inputs: type[Any], result: type[Any], solver: Any) -> Calculatio
             return {}
 
     class SpringResponse(Response, of=result):
-        """Its deflection."""
+        """The answer with the deflection of the spring."""
 
         views: ClassVar = {"deflection": View(headline=1)}
 
@@ -214,7 +215,7 @@ def test_a_solver_s_complaint_names_the_request_s_field() -> None:
 
 
 class PlainRequest(Request, of=LongSpring):
-    """A spring whose inputs stand at the root of the request: nothing of them is written again."""
+    """A request with the inputs of a spring at its root. None of these inputs is declared again."""
 
     def inputs(self) -> LongSpring:
         return self.si(LongSpring)
@@ -224,7 +225,7 @@ class PlainRequest(Request, of=LongSpring):
 
 
 ROW = replace(LONG, path="/v1/new-spring", request=PlainRequest)
-"""A new endpoint: this row and its solver."""
+"""A new endpoint, which consists of this row and its solver."""
 
 
 def test_an_input_at_the_root_is_one_declaration_too() -> None:
@@ -240,7 +241,7 @@ def test_an_input_at_the_root_is_one_declaration_too() -> None:
 
 
 class _AtOnce:
-    """Runs what a worker would run, and finds every kernel warm."""
+    """Stand-in for the workers and the start-up: it runs a function at once and accepts every endpoint."""
 
     def require(self, _path: str) -> None:
         """Accept every endpoint."""
@@ -277,14 +278,14 @@ def test_an_endpoint_is_one_row_and_its_solver(monkeypatch: pytest.MonkeyPatch) 
 
 @record
 class Inner:
-    """What another calculation answers."""
+    """The result of another calculation."""
 
     width: float = quantity("width", unit="mm")
 
 
 @record
 class Outer:
-    """And what is built on it; `deep` may be missing."""
+    """A result that contains the result `Inner`. The member `deep` may be missing."""
 
     inner: Inner
     height: float = quantity("height", unit="mm")
@@ -292,11 +293,11 @@ class Outer:
 
 
 class InnerGroup(Group, of=Inner):
-    """A width."""
+    """A group with a width."""
 
 
 class OuterGroup(InnerGroup, of=(Outer, Spring)):
-    """Filled from a result, from the result inside it and from a member that may be missing."""
+    """A group filled from `Outer`, from the `Inner` inside it, and from `deep`, which may be missing."""
 
 
 @pytest.mark.parametrize(("deep", "force"), [(Spring(5.0), 5.0), (None, None)])
@@ -310,12 +311,12 @@ def test_a_section_names_declared_fields_only() -> None:
     with pytest.raises(TypeError, match="names fields that are not declared: colour"):
 
         class Painted(Section, of=Spring, only=("force", "colour")):
-            """No such field."""
+            """A section with the field `colour`, which is not declared."""
 
     with pytest.raises(TypeError, match="colour"):
 
         class Judged(Group, of=Spring):
-            """No such field."""
+            """A group with a view of the field `colour`, which is not declared."""
 
             views: ClassVar = {"colour": View(headline=1)}
 
@@ -324,10 +325,10 @@ def test_one_model_stands_for_a_dataclass_whatever_the_order() -> None:
     with pytest.raises(TypeError, match="InnerGroup and Twin are both the model of Inner"):
 
         class Twin(Group, of=Inner):
-            """Another width."""
+            """A second group for `Inner`, which is rejected."""
 
     class Other(Group, of=Inner, stands=False):
-        """A width that no other dataclass holds."""
+        """A group for `Inner` that other groups do not use."""
 
     assert list(Other.model_fields) == ["width_mm"]
 

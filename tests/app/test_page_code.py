@@ -1,4 +1,4 @@
-"""The code beside a result runs as it is and gives the answer of the page."""
+"""The programs beside a result, in Python and for the shell, send the request of the case."""
 
 import json
 import shlex

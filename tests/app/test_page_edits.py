@@ -1,4 +1,4 @@
-"""What the form of a case sends is the case, and an edit of one field changes that field only."""
+"""The form of a case sends exactly this case, and an edit of one field changes only this field."""
 
 from functools import cache
 from typing import Any
@@ -31,7 +31,7 @@ FIRST = {example.endpoint: name for name, example in reversed(examples().items()
 
 @cache
 def form_of(name: str) -> tuple[Pairs, dict[str, list[str]]]:
-    """The form of an example, filled in; nothing is solved."""
+    """Return the fields of the form of an example, and the texts that each select offers. Nothing is solved."""
     example = examples()[name]
     calculation = BY_PATH[example.endpoint]
     asked = Asked(page_path(calculation), pairs_of(example.request))
@@ -39,13 +39,13 @@ def form_of(name: str) -> tuple[Pairs, dict[str, list[str]]]:
 
 
 def sent(name: str, pairs: Pairs) -> dict[str, Any]:
-    """The inputs of the request that these texts make, by path."""
+    """Return the inputs of the request that the form sends with these texts. The keys are the paths of the inputs."""
     model = BY_PATH[examples()[name].endpoint].request
     return flattened(body_of(model, normalised(model, from_form(model, pairs))))
 
 
 def edited(text: str, offers: list[str] | None) -> str:
-    """Another text for a field."""
+    """Return a text that differs from the text of a field. If the field is a select, choose one of its `offers`."""
     if offers:
         return next(each for each in offers if each != text)
     items = text.split(",")

@@ -1,4 +1,4 @@
-"""The words of pages: differences, verdicts and findings say what their numbers allow."""
+"""The words on the pages agree with the numbers, and the pages do not show names of the interface."""
 
 import re
 from html import unescape
@@ -30,7 +30,10 @@ CLOSED = {"model": {"lubrication": "closed_form"}}
 
 
 def compared(name: str, changes: dict[str, Any]) -> str:
-    """Return the page that compares a changed example with the example."""
+    """Return the page that compares a changed example with the example.
+
+    Scuffing examples use the closed form of the lubrication on both sides of the comparison.
+    """
     example = examples()[name]
     base = changed(example.request, CLOSED) if example.endpoint == "/v1/scuffing" else example.request
     ref = link("", pairs_of(base)).removeprefix("?")
@@ -39,7 +42,7 @@ def compared(name: str, changes: dict[str, Any]) -> str:
 
 
 def change_of(html: str, path: str) -> str:
-    """What the table of results says of the change of a number."""
+    """Return the change of the number at `path`, as the table of results states the change."""
     (row,) = re.findall(rf'data-path="{re.escape(path)}".*?</tr>', html, re.DOTALL)
     return re.findall(r'<td class="right">([^<]*)</td></tr>', row)[0]
 
@@ -191,7 +194,7 @@ WORDS = re.compile(r"/v1/|\b[a-z]+(?:_[a-z0-9]+)+\b|\b[a-z]+(?:\.[a-z]+)*\.[a-z]
 
 
 def text_of(html: str) -> str:
-    """What is read on a page, without the case as code."""
+    """Return the text that a reader sees on a page, without blocks of code."""
     plain = re.sub(r"<(script|style|pre)\b.*?</\1>", " ", html, flags=re.DOTALL)
     return unescape(re.sub(r"<[^>]+>", " ", re.sub(r"</?(i|sub|span)\b[^>]*>", "", plain)))
 

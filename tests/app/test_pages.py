@@ -1,4 +1,8 @@
-"""Pages say what the API says: the query is the case, the form holds every field, faults stand where they belong."""
+"""The pages of cases show the answers of the API.
+
+The query of a page contains the case. The form has every field of the request. An error message stands at the field
+that is wrong.
+"""
 
 import json
 import re
@@ -51,7 +55,7 @@ def page(name: str) -> str:
 
 @cache
 def empty(calculation: Calculation) -> str:
-    """The page of a calculation before anything is typed."""
+    """Return the page of a calculation as it is before a user types anything."""
     return html_of(Asked(page_path(calculation), []))
 
 
@@ -304,7 +308,7 @@ def test_figures_of_a_page_are_drawn_from_the_kept_answer() -> None:
 
 
 def long_case(torque: str) -> dict[str, str]:
-    """A coupling whose pitch deviations make its link too long."""
+    """Return the fields of a coupling with 400 pitch deviations, which make the case too long for a link."""
     errors = ",".join(f"{0.123456789012345 * (index % 7):.15f}" for index in range(400))
     fields = dict(pairs_of(examples()[COUPLING].request))
     return fields | {"coupling.teeth": "400", "coupling.pitch_errors_um": errors, "operation.torque_n_m": torque}
@@ -578,7 +582,10 @@ def test_assets_are_kept_by_browsers(client: httpx.Client) -> None:
 
 @pytest.mark.usefixtures("without_images")
 def test_a_report_tells_every_input_of_every_item() -> None:
-    """Sections of a shaft side by side, four at most; a stiffness by its rows; a link short as text only."""
+    """A table of the report shows at most four sections of a shaft side by side.
+
+    A stiffness matrix is printed row by row. Only the text of the link is shortened, not its address.
+    """
     example = "starter-generator-gear-drive-train"
     html = views.report(asked(example), "http://host").content.decode()
     request = examples()[example].request

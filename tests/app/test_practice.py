@@ -1,4 +1,7 @@
-"""What an engineer has at hand: an oil by grade or data sheet, an FZG stage, factors; warnings of unusual values."""
+"""Requests may contain what an engineer has at hand: an oil grade or a data sheet, an FZG stage, load factors.
+
+Unusual values cause warnings, and inputs that exclude each other are refused.
+"""
 
 from dataclasses import replace
 from math import cos, pi, radians
@@ -28,7 +31,7 @@ BODIES = {
 
 
 def fzg(stage: int) -> dict[str, Any]:
-    """FZG type A at its own failing stage, as a lab sheet has it."""
+    """Return a request for FZG gears of type A at the load of a stage. The oil fails at the same stage."""
     pinion = {"teeth": 16, "profile_shift": 0.8532, "addendum": (88.8 / 2 - 36) / 4.5 - 0.8532}
     wheel = {"teeth": 24, "profile_shift": -0.5, "addendum": (112.5 / 2 - 54) / 4.5 + 0.5}
     return {
@@ -64,7 +67,10 @@ def fzg(stage: int) -> dict[str, Any]:
 def test_fzg_type_a_at_its_own_failing_stage_stands_at_the_limit(
     stage: int, margin: float, safety: float, friction: float, bulk: float, flash: float
 ) -> None:
-    """Safety 1 is what the test defines; the other numbers are those of the standard's own rules."""
+    """The FZG test defines a safety factor of 1 at the failing stage.
+
+    The other expected numbers follow from the rules of the standard.
+    """
     result = solved("/v1/scuffing", fzg(stage), {})
     assert result["safety"]["blok_factor"] == pytest.approx(1.0, abs=margin)
     assert result["safety"]["blok_factor"] == pytest.approx(safety, rel=0.07)
@@ -98,7 +104,7 @@ def test_oil_of_the_same_pair_by_grade_has_half_the_paper_s_film() -> None:
 
 
 def used(endpoint: str, body: dict[str, Any], oil: dict[str, Any], path: str = "lubricant") -> dict[str, Any]:
-    """What an answer says of its oil."""
+    """Solve a request with this oil at `path`, and return the values that the answer derives for the oil."""
     derived: dict[str, Any] = solved(endpoint, body, {path: oil})["derived"]
     for name in path.split("."):
         derived = derived[int(name)] if isinstance(derived, list) else derived.get(name, derived)
@@ -341,7 +347,7 @@ SLACK = (
     ],
 )
 def test_unusual_values_are_named(endpoint: str, changes: dict[str, Any], message: str) -> None:
-    """At the field that is changed last."""
+    """The warning names the field that stands last in `changes`."""
     result = solved(endpoint, BODIES[endpoint], changes)
     assert result["status"] == "ok_with_warnings"
     field = list(changes)[-1]
@@ -354,7 +360,10 @@ HELICAL = {"gears.helix_angle_deg": 15, "gears.wheel.profile_shift": -0.1, "gear
 @pytest.mark.parametrize("plane", ["normal", "transverse"])
 @pytest.mark.parametrize("endpoint", [LOAD_DISTRIBUTION, "/v1/pumping"])
 def test_a_tip_diameter_is_the_addendum_of_the_drawing(endpoint: str, plane: str) -> None:
-    """Either way of giving the tip has the other's answer, and the answer's geometry the diameters of the drawing."""
+    """The geometry is the same if the tip diameter is given instead of the addendum.
+
+    The tip and root diameters of the wheel follow from addendum, dedendum and profile shift, as on a drawing.
+    """
     body, plain = BODIES[endpoint], {**HELICAL, "gears.module_plane": plane}
     by_addendum = solved(endpoint, body, plain)
     tip = by_addendum["geometry"]["wheel_tip_diameter_mm"]

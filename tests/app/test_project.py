@@ -1,4 +1,4 @@
-"""What the project says of itself: one version, versions of packages that its lock knows, files that exist."""
+"""The project states its version once and locks all its dependencies, and its documents link to existing files."""
 
 import re
 import tomllib
@@ -17,7 +17,7 @@ def text(name: str) -> str:
 
 
 def test_the_version_stands_in_one_place() -> None:
-    """Reinstall (`pip install -e .`) after a change of the version."""
+    """If this test fails after a change of the version, reinstall the project by `pip install -e .`."""
     assert PROJECT["version"] == version("tribodrive") == MODEL_VERSION
     stated = [name for name in ("README.md", "CITATION.cff", "CONTRIBUTING.md") if PROJECT["version"] in text(name)]
     assert stated == []

@@ -1,4 +1,4 @@
-"""Limits, headers and identification of requests."""
+"""The service refuses requests that break its limits, sets headers on every answer, and identifies requests."""
 
 import json
 import socket
@@ -13,7 +13,7 @@ from app.settings import Settings
 
 
 def answer_to(client: httpx.Client, sent: bytes) -> bytes:
-    """Everything that the service answers on a connection of one's own before it closes it."""
+    """Send bytes on a new connection, and return all bytes that the service sends until it closes the connection."""
     target = urlsplit(str(client.base_url))
     with socket.create_connection((target.hostname, target.port), timeout=60) as connection:
         connection.sendall(sent)

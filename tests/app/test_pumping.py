@@ -1,4 +1,4 @@
-"""The contract of /v1/pumping and /v1/pumping/choking-speed."""
+"""The endpoints /v1/pumping and /v1/pumping/choking-speed keep their contract: fields, units and refusals."""
 
 from collections.abc import Mapping
 from typing import Any

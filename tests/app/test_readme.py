@@ -1,4 +1,4 @@
-"""The README's examples run as they stand."""
+"""The Python examples in the README run unchanged, except for the address of the service."""
 
 import re
 from pathlib import Path
@@ -26,7 +26,7 @@ PAIR = {
     "temperatures": {"oil_c": 70, "scuffing_test": {"fzg_stage": 12}},
     "model": {"lubrication": "closed_form"},
 }
-"""What the script calculates without a server."""
+"""The request for the gear pair that a script in the README calculates without a server."""
 
 
 def run(snippet: str, server: str) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The report says which value was used and where it comes from, in words a customer reads."""
+"""The report of a case states which values were used and where they come from, in words for customers."""
 
 import json
 import re
@@ -36,7 +36,7 @@ def page(name: str) -> str:
 
 
 def rows(html: str, first: str, last: str) -> dict[str, tuple[str, ...]]:
-    """The rows of the tables between two headings, by their first cell."""
+    """Return the table rows between the headings `first` and `last`. The key of a row is its first cell."""
     part = html[html.index(f"<h2>{first}") : html.index(f"<h2>{last}")]
     found = re.findall(r"<tr>(.*?)</tr>", part, re.DOTALL)
     cells = [re.findall(r"<td[^>]*>(.*?)</td>", row, re.DOTALL) for row in found]
@@ -59,7 +59,10 @@ def test_inputs_say_the_value_used_and_where_it_comes_from() -> None:
 
 @pytest.mark.parametrize("name", SHORT[:3])
 def test_no_input_is_dropped(name: str) -> None:
-    """Those that were given, assumed or derived stand in tables, the others in a text."""
+    """The report names every input.
+
+    Given, assumed and derived inputs stand in tables, and the other inputs stand in a text.
+    """
     case = asked(name)
     part = report(name)
     part = part[part.index("<h2>Inputs") : part.index("<h2>Assumptions")]
@@ -83,7 +86,10 @@ def test_only_what_was_given_is_said_to_be_given(name: str) -> None:
 
 
 def test_a_report_can_be_signed() -> None:
-    """Lines for date and signature stay where names are typed; the file of the unit is named with its hash."""
+    """Each name is followed by two empty lines, for the date and the signature.
+
+    The report names the REXS file of the gear unit and the SHA-256 of this file.
+    """
     names = {"author": "A. Miller", "checker": "B. Smith", "approver": "C. Jones", "revision": "B"}
     file = {"rexs_file": "unit.rexs", "rexs_sha256": "ab" * 32, "rexs_stage": "5"}
     html = views.report(asked("pahl-axial-displacement", **names, **file), "").content.decode()
@@ -121,7 +127,10 @@ def test_groups_repeat_their_heading_and_name_their_parts() -> None:
 
 
 def test_the_page_writes_results_back_into_the_file() -> None:
-    """Of the case as edited; a case that was read from no file has no such form."""
+    """The page of a case from a REXS file has a form that sends the request of the case.
+
+    The page of a case that was not read from a file has no such form.
+    """
     file = {"rexs_sha256": "ab" * 32, "rexs_stage": "5"}
     case = replace(asked(SCUFFING, **file), pairs=[*asked(SCUFFING).pairs, ("model.lubrication", "closed_form")])
     html = views.page(case).content.decode()

@@ -1,4 +1,4 @@
-"""Every field of every request and answer says all that its views need."""
+"""The declaration of every field of a request or an answer contains all that the pages and the JSON schema need."""
 
 from collections import Counter
 from functools import cache
@@ -26,7 +26,7 @@ def document_of(model: type[Documented]) -> dict[str, Any]:
 
 
 def schema_of(model: type[Documented], path: str) -> dict[str, Any]:
-    """What the JSON schema says of the field at a path."""
+    """Return the part of the JSON schema that describes the field at `path`."""
     document = document_of(model)
     place: dict[str, Any] = document
     for name in (part for part in path.split(".") if part != ITEM):
@@ -35,7 +35,10 @@ def schema_of(model: type[Documented], path: str) -> dict[str, Any]:
 
 
 def definition(document: dict[str, Any], field: dict[str, Any]) -> dict[str, Any]:
-    """The definition behind a field that is a section, alone, optional or in a list."""
+    """Return the definition of the section in a field, also if the section is optional or in a list.
+
+    If the field has no section, return the field.
+    """
     kinds = [field, *field.get("anyOf", ())]
     kinds += [kind["items"] for kind in kinds if "items" in kind]
     reference = next((kind["$ref"] for kind in kinds if "$ref" in kind), None)
@@ -81,7 +84,7 @@ def test_titles_stand_alone(model: type[Documented]) -> None:
 
 @pytest.mark.parametrize("model", MODELS, ids=IDS)
 def test_symbols_are_written_alike(model: type[Documented]) -> None:
-    """Plain text, one underscore before a subscript, temperatures are θ."""
+    """A symbol has at most one underscore, before its subscript. Symbols of temperatures begin with θ."""
     for leaf in leaves(model):
         for part in (leaf.declared.symbol or "").replace("/", " ").replace(",", " ").split():
             assert part.count("_") <= 1, leaf.path
@@ -92,7 +95,7 @@ def test_symbols_are_written_alike(model: type[Documented]) -> None:
 
 @pytest.mark.parametrize("response", RESPONSES, ids=RESPONSE_IDS)
 def test_curves_have_axes(response: type[Documented]) -> None:
-    """A list runs over other fields, is run over itself, or says what its places mean."""
+    """Every list in an answer names its axes, is itself the axis of a field, or declares the meaning of its index."""
     answer = {leaf.path: leaf for leaf in leaves(response)}
     abscissas = {axis for leaf in answer.values() for axis in leaf.axes}
     for leaf in answer.values():

@@ -1,4 +1,4 @@
-"""The contract of /v1/scuffing/load-distribution and /v1/scuffing."""
+"""The endpoints /v1/scuffing/load-distribution and /v1/scuffing keep their contract: fields, units and refusals."""
 
 from collections.abc import Mapping
 from typing import Any
@@ -44,12 +44,12 @@ SCUFFING_SECTIONS = {
 
 
 def distribution(post: Post, changes: Mapping[str, Any] = {}, name: str = "xue-pair-1") -> dict[str, Any]:
-    """The load distribution of an example with changes."""
+    """Request the load distribution of an example with `changes`, and return the answer."""
     return accepted(post(DISTRIBUTION, example(name, changes)))
 
 
 def scuffing(post: Post, changes: Mapping[str, Any] = {}) -> dict[str, Any]:
-    """The scuffing of an example with changes."""
+    """Request the scuffing calculation of an example with `changes`, and return the answer."""
     return accepted(post(SCUFFING, example("xue-pair-1-scuffing", changes)))
 
 
@@ -147,7 +147,11 @@ def test_impossible_gears_and_contradictions_are_named(
     [("closed_form", 10), ("closed_form", 50), ("closed_form", 100), ("closed_form", 500), ("thermal_ehl", 10)],
 )
 def test_a_path_that_reaches_a_base_circle_has_no_verdict(post: Post, lubrication: str, points: int) -> None:
-    """12/60 teeth: once 154,550 MPa and Blok safeties of 3.8, 2.4, 2.1, 1.4 with 10, 50, 100, 500 points."""
+    """With 12 and 60 teeth, the path of contact reaches a base circle, where the pressure has no value.
+
+    An earlier version of the service answered 154,550 MPa, and Blok safety factors of 3.8, 2.4, 2.1 and 1.4 with 10,
+    50, 100 and 500 points of the path.
+    """
     rack = {"module_mm": 2, "helix_angle_deg": 15, "face_width_mm": 20}
     body = {
         "gears": {"pinion": {"teeth": 12}, "wheel": {"teeth": 60}, **rack},

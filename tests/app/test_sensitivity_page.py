@@ -1,4 +1,4 @@
-"""The page that says which input matters: its figure and table say what the study says, its links draw the curve."""
+"""The page of a sensitivity study shows the numbers of the study, and each row of its table links to a curve."""
 
 import asyncio
 import re
@@ -90,7 +90,7 @@ def test_the_page_by_its_address(client: httpx.Client) -> None:
 
 
 class BrokenPool:
-    """Its calls fail as one that meets a defect of a page."""
+    """Stand-in for a pool. Every call fails with a KeyError, as if a page had a programming error."""
 
     slots = 1
 

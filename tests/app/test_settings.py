@@ -1,4 +1,4 @@
-"""Every limit is one environment variable, and the documentation says so."""
+"""Every setting is an environment variable, and the help and the manual document every setting."""
 
 import os
 import re

@@ -1,4 +1,4 @@
-"""The identity of the solvers' sources: prose leaves it, a constant changes it."""
+"""The hash of the solvers' sources depends on constants and formulas, but not on prose and layout."""
 
 from collections.abc import Callable
 from functools import partial

@@ -1,4 +1,4 @@
-"""The page of a load spectrum: a pasted table and tolerances make the study, whose numbers and links it shows."""
+"""The page of a load spectrum reads a pasted table and tolerances, and shows the numbers of the study."""
 
 import asyncio
 import re
@@ -32,12 +32,12 @@ TABLE = "name\tshare\tload.power_kw\ttemperatures.oil_c\nstart\t2 %\t2000,5\t40\
 
 
 def told(study: StudyPage) -> list[dict[str, Any]]:
-    """The lines of a study but those of its progress."""
+    """Return the lines of a study without the lines about its progress."""
     return [line for line in lines_of(study) if line["type"] != "progress"]
 
 
 def studied(study: StudyPage) -> tuple[list[dict[str, Any]], str]:
-    """The lines of a study, and what its page shows."""
+    """Return the lines of a study without the lines about its progress, and the page that shows these lines."""
     lines = told(study)
     return lines, whole(study, lines)
 
@@ -137,7 +137,10 @@ def test_controls_of_a_study_are_read_as_fields_are(client: httpx.Client) -> Non
 
 @pytest.mark.parametrize("name", EXAMPLES["/v1/spectrum"])
 def test_ready_studies_are_those_of_the_interface(name: str) -> None:
-    """The query of a starter makes the machines and cases of the example."""
+    """The page of an example from the API has the cases, tolerances and limits of the example.
+
+    The number of machines is the default of the page: 8 replicates of 32 machines.
+    """
     body = EXAMPLES["/v1/spectrum"][name]["value"]
     calculation = BY_PATH[body["endpoint"]]
     question = asked_by(address_of(calculation, pairs_of(body["request"]), body))
@@ -156,7 +159,10 @@ def test_ready_studies_are_those_of_the_interface(name: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", EXAMPLES["/v1/spectrum"])
 def test_customers_read_where_a_limit_comes_from(client: httpx.Client, name: str) -> None:
-    """The deviation of the scuffing temperature is said to be assumed, from a source of second hand."""
+    """For gears, the page and the report cite a secondary source for the deviation of the scuffing temperature.
+
+    For the coupling, the deviation of the limit is given.
+    """
     body = EXAMPLES["/v1/spectrum"][name]["value"]
     address = address_of(BY_PATH[body["endpoint"]], pairs_of(body["request"]), body) + "&machines=8"
     page = client.get(address)
@@ -202,7 +208,10 @@ def test_no_name_of_a_case_is_a_formula_in_a_spreadsheet() -> None:
 
 
 def test_a_probability_that_nobody_knows_is_no_number() -> None:
-    """A limit 20 deviations away: 10^-80 is not known, and no figure draws it."""
+    """The limit is so far away that the computed probability has no meaning.
+
+    The page states a probability below 0.001 % instead, and has no figure of the probability.
+    """
     lines, page = studied(checked(SpectrumPage, asked(COUPLING, **{**SAID, "limit": "20000"})))
     (limit,) = lines[-1]["limits"]
     assert 0.0 < limit["probability"] < 1e-9
@@ -254,7 +263,7 @@ def test_names_that_contradict_each_other_are_a_fault_on_the_page(client: httpx.
 
 @pytest.mark.slow
 def test_hostile_queries_are_no_errors_of_the_service(client: httpx.Client) -> None:
-    """Whatever stands in the table, the answer is a page or a refusal."""
+    """Whatever text stands in a control of the page, the service answers with a page or refuses the query."""
     texts = [
         "\x00\x01",
         '"',
@@ -287,19 +296,22 @@ def test_the_page_works_from_the_case(client: httpx.Client) -> None:
 
 
 class Inline:
-    """A pool that calls in this process, at once."""
+    """A pool that runs every call immediately, in this process."""
 
     slots = 1
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
-        """Return what the call returns."""
+        """Return a future that already has the result of the call."""
         future = asyncio.get_running_loop().create_future()
         future.set_result(function(*arguments))
         return future
 
 
 def parts_of_report(study: StudyPage, lines: list[dict[str, Any]]) -> list[str]:
-    """Return the report as it is sent while the lines arrive, more than a pause apart."""
+    """Return the parts of the document with the report, in the order in which they are sent.
+
+    The lines of the study arrive every 0.31 s. Parts about the progress are sent at most every 0.3 s.
+    """
     clock = Clock(study.study.total)
 
     async def arriving() -> AsyncGenerator[list[dict[str, Any]], None]:

@@ -1,4 +1,4 @@
-"""Tables for spreadsheets: numbers stay numbers, whatever their sign, and nothing that is typed becomes a formula."""
+"""In tables for spreadsheets, numbers of either sign stay numbers, and no typed text becomes a formula."""
 
 import csv
 import io
@@ -43,7 +43,7 @@ def test_a_formula_is_text(text: str) -> None:
 
 @pytest.mark.parametrize("name", NEGATIVE)
 def test_every_number_of_a_case_is_a_number_in_its_file(name: str) -> None:
-    """Each cell of an input is the number that the answer says, in all its digits."""
+    """The CSV file of a case contains every numeric input exactly as the answer does, also negative numbers."""
     changes = NEGATIVE[name]
     calculation = BY_PATH[examples()[name].endpoint]
     case = solved(calculation, pairs_of(example(name, changes)), None, "summary")

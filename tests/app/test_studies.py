@@ -1,4 +1,4 @@
-"""Studies by their addresses."""
+"""The endpoints of studies give the numbers of single requests, and refuse a study that contains an error."""
 
 import csv
 import io
@@ -30,7 +30,7 @@ SWEEP = {
 
 
 def lines(response: httpx.Response) -> list[dict[str, Any]]:
-    """The lines of a study but those of its progress."""
+    """Return the lines of a study without the lines about its progress."""
     assert response.status_code == 200, response.text
     assert response.headers["content-type"] == "application/x-ndjson"
     found = map(json.loads, response.text.splitlines())
@@ -38,7 +38,7 @@ def lines(response: httpx.Response) -> list[dict[str, Any]]:
 
 
 def assert_solved(end: dict[str, Any], total: int) -> None:
-    """Every point of a study has its numbers."""
+    """Check in the last line of a study that all points of the study are solved."""
     assert end["type"] == "end"
     assert end["counts"].get("ok", 0) + end["counts"].get("ok_with_warnings", 0) == total
 
@@ -183,7 +183,10 @@ def test_examples_of_spectra(post: Post, name: str) -> None:
 
 
 def test_corners_on_the_workers(post: Post) -> None:
-    """The thermal film is left out, and the outputs are still those of the whole answer."""
+    """A study of corners omits the thermal film if no output needs the film.
+
+    The outputs are nevertheless those of a single request with the film.
+    """
     ranges = [{"path": "thermal.wall_response", "values": [0.3, 1.0]}]
     outputs = ["load.face_load_factor", "safety.blok_flank"]
     body = {**UNIT.request, "model": {"lubrication": "thermal_ehl", "path_points": 3}}

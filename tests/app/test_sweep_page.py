@@ -1,4 +1,7 @@
-"""Studies on the pages: what a query asks, the figures' numbers, links that open the case of a point, refusals."""
+"""The page of a sweep reads the study from its query, draws the points, and links each point to its case.
+
+If a study is refused, the message stands at the control that is wrong.
+"""
 
 import json
 import re
@@ -53,7 +56,7 @@ def checked(found: Asked) -> tuple[SweepPage, PointSet]:
 
 
 def varied(found: Asked, axis: int = 0) -> list[Any]:
-    """The values along an axis of the sweep."""
+    """Return the values along an axis of the sweep that a page asks for."""
     return list(checked(found)[1].axes[axis].values or ())
 
 
@@ -100,7 +103,10 @@ def test_the_crowning_that_forgives_is_a_map_of_17_by_11() -> None:
 
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 def test_numbers_are_varied_and_outputs_shown_by_their_names_alone(calculation: Calculation) -> None:
-    """A number is varied around its value, inside what is allowed; one without a value may ask for a range."""
+    """The name of a number is enough to vary this number, and the name of an output is enough to show this output.
+
+    If the case has no value of the number, the service may ask for a range.
+    """
     found = asked(next(each.name for each in examples().values() if each.endpoint == calculation.path))
     choices = [choice.path for choice in field_choices(calculation, found.case, texts=False)]
     unused = found.calculation.request.model_validate(found.body).unused()

@@ -1,4 +1,4 @@
-"""Texts that users read use the terms of ISO 1122-1, ISO 1328-1, ISO 6336-1 and ISO 21771."""
+"""The API, the manual and the examples use the terms of ISO 1122-1, ISO 1328-1, ISO 6336-1 and ISO 21771."""
 
 import json
 import re
@@ -28,14 +28,14 @@ TERMS = {
 
 @pytest.fixture(scope="module")
 def texts() -> list[str]:
-    """The API's texts, the manual and titles of examples."""
+    """Return the texts of the API, the titles of the examples, and the chapters of the manual."""
     chapters = [chapter.read_text("utf-8") for chapter in (ROOT / "app" / "manual").glob("*.md")]
     return [json.dumps(app.openapi()), *(example.title for example in examples().values()), *chapters]
 
 
 @pytest.mark.parametrize("other", TERMS)
 def test_the_standard_term_is_used(texts: list[str], other: str) -> None:
-    """Names of fields and functions stay."""
+    """The test ignores the names of fields and functions, such as `allowable_misalignment`."""
     written = re.compile(rf"\b{other}(?!_)", re.IGNORECASE)
     found = [text[max(place.start() - 60, 0) : place.end() + 30] for text in texts for place in written.finditer(text)]
     assert not found, TERMS[other]

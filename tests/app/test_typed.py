@@ -1,4 +1,7 @@
-"""What people type into a form is read as it is meant or asked back; links and the interface stay as they are."""
+"""A form reads typed text as its author means it, or asks back if the text has two readings.
+
+Links are read as strictly as before.
+"""
 
 import re
 from html import unescape
@@ -109,7 +112,10 @@ def test_every_unit_of_a_field_may_be_typed_behind_its_number(symbol: str) -> No
 
 
 def _alike(one: str, other: str) -> bool:
-    """Whether two units are of one quantity: one becomes the other with another prefix."""
+    """Return whether two units are of the same quantity.
+
+    Units are of the same quantity if a field with the unit `other` reads a number with the unit `one`.
+    """
     return in_link(f"1 {one}", other) != f"1 {one}"
 
 
@@ -144,7 +150,7 @@ def test_a_list_whose_commas_part_numbers_may_be_copied_from_a_link() -> None:
 
 
 def writing(value: float, random: Random) -> tuple[str, float, bool]:
-    """One of the ways in which people write a number, the number that is meant, and whether there are two readings."""
+    """Return a random way to write a number, the number that is meant, and whether the text has two readings."""
     places = random.choice((0, 1, 2, 3, 4))
     whole, _, decimals = f"{abs(value):.{places}f}".partition(".")
     mark, other = random.choice((".,", ",."))
@@ -194,7 +200,10 @@ def _is_number(text: str) -> bool:
 
 @pytest.mark.parametrize("name", FIRST.values(), ids=FIRST)
 def test_every_number_that_a_page_prints_may_be_typed_into_its_form(name: str) -> None:
-    """Values of the table, headlines and placeholders: read as the number printed, or asked back."""
+    """If a number of a page is typed into the form of this page, the form reads the same number or asks back.
+
+    The numbers stand in tables, headlines and placeholders.
+    """
     html = html_of(asked(name))
     printed = re.findall(r'data-path="[^"]+">([^<]*)<', html) + re.findall(
         r'class="number"[^>]*placeholder="([^"]*)"', html
@@ -213,7 +222,7 @@ def test_every_number_that_a_page_prints_may_be_typed_into_its_form(name: str) -
 
 
 def sent(client: httpx.Client, name: str, **texts: str) -> httpx.Response:
-    """The answer to the form of an example's page in which these texts were typed, sent without script."""
+    """Type these texts into the form of an example's page, send the form without script, and return the answer."""
     path = page_path(BY_PATH[examples()[name].endpoint])
     fields, _ = read_form(client.get(path, params=pairs_of(examples()[name].request)).text)
     assert texts.keys() <= dict(fields).keys()
@@ -267,7 +276,10 @@ def test_two_values_may_have_decimal_commas(client: httpx.Client) -> None:
 
 
 def test_only_what_is_refused_is_asked_back() -> None:
-    """In the list of a link a comma parts values: 100,200 is no question although another field is wrong."""
+    """In a link, the comma in 100,200 separates two values of a list.
+
+    The page does not ask what this text means, although another field is wrong.
+    """
     pairs = [("coupling.pitch_errors_um", "100,200"), (TORQUE, "x")]
     html = html_of(Asked("/coupling", pairs), 422)
     assert "may mean" not in html

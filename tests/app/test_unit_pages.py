@@ -1,4 +1,4 @@
-"""Pages of a gear unit's studies: what they show is what the studies say, and every link leads to the case it names."""
+"""The pages of a gear unit's studies show the results of the studies, and their links lead to the named cases."""
 
 import json
 import re
@@ -26,7 +26,7 @@ SAFETY, SLOPE = "safety.blok_flank", "modifications.helix_slope_um"
 
 
 def small(**said: str) -> Asked:
-    """A unit with two corners."""
+    """Return the page of a gear unit with only two corners."""
     whole = asked(UNIT, **said)
     return Asked(whole.path, [*whole.pairs, ("effects.coupling", "false")], said)
 
@@ -123,7 +123,10 @@ def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> 
 
 
 def test_the_sheet_names_the_end_where_material_is_removed() -> None:
-    """The lead chart is lowest there, whatever the sign of the slope; the other end is the highest."""
+    """The lead chart is lowest at the end that the grinding sheet names, for both signs of the helix slope.
+
+    The other end of the chart is higher by the slope of 30 um.
+    """
     study, lines, _ = studied(DesignPage)
     for slope in (30.0, -30.0):
         end = {**lines[-1], "rounded": {**lines[-1]["rounded"], "at": {**lines[-1]["rounded"]["at"], SLOPE: slope}}}

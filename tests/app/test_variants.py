@@ -1,4 +1,4 @@
-"""Several variants beside each other, and a form that shows what decides."""
+"""A page compares several variants in one table, and its form opens the section with the limit of the verdict."""
 
 import re
 from html import unescape
@@ -24,7 +24,7 @@ def query(misalignment: float) -> str:
 
 
 def table_of(html: str) -> list[list[str]]:
-    """Return the rows of the table of variants, each a list of its cells."""
+    """Return the rows of the table of variants. A row is a list of the texts of its cells."""
     table = html.partition('aria-label="Variants"')[2].partition("</table>")[0]
     rows = [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row, re.DOTALL) for row in table.split("</tr>")]
     return [[unescape(re.sub(r"<[^>]+>", "", cell)).strip() for cell in row] for row in rows if len(row) > 1]

@@ -1,4 +1,4 @@
-"""The stages of the warm-up leave no kernel cold that an example needs, and every endpoint has a stage."""
+"""The warm-up compiles every kernel that an example needs, and every endpoint belongs to a stage of the warm-up."""
 
 import subprocess
 import sys

@@ -1,4 +1,7 @@
-"""Which call gets the next worker, what happens to it, and how workers are started; without processes."""
+"""The pool shares its workers fairly among the callers, and replaces workers that die or do not start.
+
+The tests use a stand-in instead of real processes.
+"""
 
 import asyncio
 import pickle
@@ -18,7 +21,7 @@ from app.workers.worker import perform, prepare
 
 
 class Processes:
-    """Stand-in for AnyIO's processes. A test scripts how processes start and when calls are answered.
+    """Stand-in for AnyIO's processes. A test decides how processes start and when calls are answered.
 
     As in AnyIO, a call goes to the idle process that was used last. If no process is idle, the call starts a process.
     """
@@ -54,7 +57,7 @@ class Processes:
             return answer
 
     async def answer(self, name: str) -> None:
-        """Let a call end with its own name."""
+        """End the call with this name. The result of the call is its name."""
         self.calls[name].set_result((name, []))
         await settled()
 
@@ -70,7 +73,7 @@ def with_pool(
     workers: int = 2,
     faults: tuple[Callable[[], Awaitable[None]], ...] = (),
 ) -> None:
-    """Check a pool whose workers are scripted."""
+    """Run `check` with a pool whose workers are processes of the stand-in `Processes`."""
     processes = Processes()
     processes.faults.extend(faults)
     monkeypatch.setattr(to_process, "run_sync", processes.run_sync)
@@ -205,7 +208,7 @@ def test_a_worker_that_does_not_start_is_started_again(
 def test_a_call_does_not_wait_for_the_start_of_a_worker_if_another_worker_is_free(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """The deadline of a study's call must not include the start of a worker."""
+    """The start of a worker must not use up the time that a study's call has until its deadline."""
 
     async def check(pool: Pool, processes: Processes) -> None:
         assert pool.alive == 1
@@ -222,7 +225,10 @@ def test_a_call_does_not_wait_for_the_start_of_a_worker_if_another_worker_is_fre
 
 
 def test_idle_workers_are_checked_all_at_the_same_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    """AnyIO would give successive checks to the same worker, and end the other worker."""
+    """If idle workers were checked one after another, AnyIO would give all checks to the same worker.
+
+    AnyIO would then end the other worker.
+    """
 
     async def check(pool: Pool, processes: Processes) -> None:
         await asyncio.sleep(0.5)
@@ -235,7 +241,7 @@ def test_idle_workers_are_checked_all_at_the_same_time(monkeypatch: pytest.Monke
 
 
 def test_a_lost_worker_is_replaced_while_another_one_is_idle(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A check that reaches the idle worker does not replace the lost worker."""
+    """The pool has to start a new worker, because a check of the idle worker does not replace the lost worker."""
 
     async def check(pool: Pool, processes: Processes) -> None:
         await asyncio.sleep(0.2)

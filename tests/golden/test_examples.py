@@ -1,8 +1,12 @@
-"""The numbers of every example as they were last accepted: a change of any is seen, whether meant or not.
+"""The numbers of every example agree with the numbers that were accepted last.
 
-These are regressions, not truths; truths are in tests/papers. After a change that is meant,
-`python -m tests.golden.test_examples "what was changed, which numbers moved, why"` writes the numbers and appends an
-entry to CHANGELOG.md; without a text it corrects the hash in the last entry. Both files belong to the commit.
+These tests notice every change beyond rounding, whether the change is intended or not. They do not show that a number
+is correct; the tests in tests/papers do. After an intended change, run
+
+`python -m tests.golden.test_examples "what was changed, which numbers moved, why"`
+
+This command writes the numbers to numbers.json and appends an entry to CHANGELOG.md. Without a text, the command
+corrects the hash in the last entry. Both files belong to the commit.
 """
 
 import itertools
@@ -27,11 +31,14 @@ CHANGELOG = Path(__file__).parents[2] / "CHANGELOG.md"
 PROJECT = CHANGELOG.with_name("pyproject.toml")
 NOT_RESULTS = {"inputs", "case", "model_version", "sources", "model", "assumptions"}
 ROUNDING = {"rel": 1e-6, "abs": 1e-9}
-"""What another processor's rounding may change in iterated results, and in what is zero but for rounding."""
+"""The differences that rounding on another processor may cause.
+
+Rounding changes the results of iterations, and numbers that would be zero without rounding.
+"""
 
 
 def numbers_of(name: str) -> dict[str, Any]:
-    """Every scalar of an example's summary by its path, and the codes of its warnings."""
+    """Return all results in the summary of an example by their paths, and the codes of its warnings."""
     example = examples()[name]
     calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
     request = calculation.request.model_validate({**example.request, "detail": "summary"})
@@ -85,7 +92,10 @@ def test_the_last_entry_of_the_changelog_is_about_these_numbers() -> None:
 
 
 def sections() -> list[tuple[tuple[int, ...], str]]:
-    """Version of every section of the changelog, newest first, and the last hash of numbers in it."""
+    """Return the version of every section of the changelog, and the last hash of numbers in this section.
+
+    The newest section comes first.
+    """
     found = [part.partition("\n") for part in CHANGELOG.read_text("utf-8").split("\n## ")[1:]]
     return [
         (tuple(map(int, title.split("."))), re.findall(r"`([0-9a-f]{64})`", entries)[-1]) for title, _, entries in found
@@ -104,7 +114,10 @@ def test_moved_numbers_are_at_least_a_minor_version() -> None:
 
 
 def accept(entry: str) -> None:
-    """Write the numbers that differ by more than rounding, and the changelog's entry about them."""
+    """Write the numbers that differ by more than rounding, and write `entry` into the changelog.
+
+    If `entry` is empty, replace only the hash in the last entry.
+    """
     known = accepted()
     content = {}
     for name in sorted(examples()):

@@ -1,4 +1,4 @@
-"""Which equations the docstrings of `solvers` cite."""
+"""Functions that find the equations cited in the docstrings of `solvers`."""
 
 import ast
 import re
@@ -15,7 +15,7 @@ _CITED = re.compile(r"\bEqs?\. ((?:[A-Z]?\d+(?:\.\d)?)(?:(?:, | and |-)[A-Z]?\d+
 
 
 def numbers(text: str, paper: str) -> set[str]:
-    """The equations that a text cites; those without a letter are the paper's."""
+    """Return the equations that a text cites. If a number has no letter, put the name of the paper before it."""
     return {number if number[0].isalpha() else f"{paper} {number}" for number in _plain(text)}
 
 
@@ -27,7 +27,7 @@ def _plain(text: str) -> Iterator[str]:
 
 
 def implementing(name: str) -> Any:
-    """Return the function, method or class of this name."""
+    """Return the function, method or class with this dotted name."""
     module = module_of(name)
     value: Any = import_module(module)
     for part in name.removeprefix(f"{module}.").split("."):
@@ -36,12 +36,12 @@ def implementing(name: str) -> Any:
 
 
 def paper_of(path: Path) -> str:
-    """The paper that a module's numbers without a letter belong to."""
+    """Return the paper to which a module refers if it cites an equation number without a letter."""
     return "Milian" if "pumping" in path.relative_to(SOLVERS).parts[0] else "Xue"
 
 
 def docstrings() -> Iterator[tuple[Path, str, str]]:
-    """Path, dotted name and docstring of every module, class and function of the solvers."""
+    """Yield the path, dotted name and docstring of every module, class and function of the solvers."""
     for path in sorted(SOLVERS.rglob("*.py")):
         module = ".".join(path.relative_to(SOLVERS.parent).with_suffix("").parts).removesuffix(".__init__")
         yield from ((path, name, text) for name, text in _inside(ast.parse(path.read_text("utf-8")), module))
@@ -56,12 +56,12 @@ def _inside(node: ast.Module | ast.ClassDef | ast.FunctionDef, name: str) -> Ite
 
 
 def cited() -> dict[str, set[str]]:
-    """The equations that every module, class and function cites."""
+    """Return the equations that each module, class and function cites. The keys are the dotted names."""
     return {name: found for path, name, text in docstrings() if (found := numbers(text, paper_of(path)))}
 
 
 def declared() -> set[str]:
-    """The equations that declarations of quantities name as their source."""
+    """Return the equations that the declarations of quantities name as their sources."""
     texts = "\n".join(path.read_text("utf-8") for path in SOLVERS.rglob("*.py"))
     sources = re.findall(r'f"\{(MILIAN|XUE)\}, ([^"]*)"', texts)
     return {number for paper, text in sources for number in numbers(text, PAPERS[paper])}

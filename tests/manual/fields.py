@@ -1,4 +1,4 @@
-"""The chapter "Inputs and outputs": every field of every request and answer, read from the models of the service."""
+"""Functions that write the chapter "Inputs and outputs" from the models of the service."""
 
 from collections.abc import Callable, Iterator
 from inspect import get_annotations
@@ -34,7 +34,11 @@ WORDS: dict[Any, str] = {float: "number", int: "integer", bool: "boolean", str: 
 
 
 class Field(NamedTuple):
-    """A field that holds values: its path, the class that declares it, and what it means, if that is declared."""
+    """A field that contains a value, and not a section.
+
+    `path` is its dotted path, and `model` is the class that declares the field. `meaning` is None if the field is
+    declared neither as an input nor as an output.
+    """
 
     path: str
     model: type[BaseModel]
@@ -46,7 +50,7 @@ class Field(NamedTuple):
 
 
 def fields_of(model: type[BaseModel], above: str = "") -> Iterator[Field]:
-    """Every field of a model and of the models inside it, in the order of the schema."""
+    """Yield every field of a model and of the models inside this model, in the order of the schema."""
     for name, info in model.model_fields.items():
         path = f"{above}.{name}" if above else name
         allowed_kinds = tuple(kinds(info.annotation))
@@ -60,12 +64,12 @@ def fields_of(model: type[BaseModel], above: str = "") -> Iterator[Field]:
 
 
 def _declaring(model: type[Any], name: str) -> type[Any]:
-    """The class of a model or of its bases that has the field in its own annotations."""
+    """Return the class that declares the field: the model or one of its base classes."""
     return next(base for base in model.__mro__ if name in get_annotations(base))
 
 
 def _type(field: Field) -> str:
-    """What a field holds, in words."""
+    """Return the type of a field's values in words."""
     words = []
     if Any in field.kinds:  # checked by a validator, which brings its own schema
         document = field.model.model_json_schema()["properties"][field.name]
@@ -83,7 +87,7 @@ def _type(field: Field) -> str:
 
 
 def _words(document: dict[str, Any]) -> Iterator[str]:
-    """What a JSON schema allows, in words."""
+    """Yield the types that a JSON schema allows, in words."""
     for each in document.get("anyOf", [document]):
         match each.get("type"):
             case "array":
@@ -95,7 +99,7 @@ def _words(document: dict[str, Any]) -> Iterator[str]:
 
 
 def _default(field: Field) -> str:
-    """The default of an input in its shown unit; nothing where an answer has the field."""
+    """Return the default of an input in the unit of the field. If the field is an output, return an empty text."""
     if isinstance(field.meaning, Output):
         return ""
     if field.info.is_required():
@@ -112,7 +116,10 @@ def _default(field: Field) -> str:
 
 
 def _solver(meaning: Input | Output | None) -> str:
-    """The attribute of the solver's dataclass, under the class that declares it."""
+    """Return the dotted name of the solver's attribute that belongs to the field, or an empty text.
+
+    The class in this name is the class that declares the attribute.
+    """
     if meaning is None or meaning.origin is None:
         return ""
     record, name = meaning.origin
@@ -121,7 +128,7 @@ def _solver(meaning: Input | Output | None) -> str:
 
 
 def row(field: Field) -> tuple[str, ...]:
-    """What stands of a field behind its path and endpoints."""
+    """Return the cells of a field's row that follow the path and the endpoints."""
     meaning = field.meaning
     unit = meaning.unit if meaning else None
     return (
@@ -138,7 +145,7 @@ def row(field: Field) -> tuple[str, ...]:
 
 
 def models() -> dict[str, list[tuple[str, type[BaseModel]]]]:
-    """The models of requests and answers with their endpoints, by section."""
+    """Return the models of requests and answers with their endpoints. The keys are the sections of the chapter."""
     others = []
     known = {each.path for each in CALCULATIONS}
     for route in (
@@ -159,7 +166,7 @@ def models() -> dict[str, list[tuple[str, type[BaseModel]]]]:
 
 
 def rows(section: str) -> list[tuple[str, ...]]:
-    """The rows of a section: one for each path and what stands of it, with the endpoints that have it."""
+    """Return the rows of a section. If fields differ only in their endpoints, these fields share a row."""
     found: dict[tuple[str, ...], list[str]] = {}
     for endpoint, model in models()[section]:
         for field in fields_of(model):
@@ -170,6 +177,6 @@ def rows(section: str) -> list[tuple[str, ...]]:
 
 
 def chapter(table: Callable[[tuple[str, ...], Iterator[tuple[str, ...]]], str]) -> str:
-    """The text of the chapter; `table` writes a table in Markdown."""
+    """Return the text of the chapter. The function `table` writes a table in Markdown."""
     parts = [f"## {name}\n\n{about}\n\n{table(COLUMNS, iter(rows(name)))}" for name, about in SECTIONS.items()]
     return "\n".join([HEAD, *parts])

@@ -1,4 +1,4 @@
-"""The pictures of the manual's chapters, as their Markdown names them."""
+"""Functions that find the pictures in the Markdown of the manual's chapters."""
 
 import re
 
@@ -6,10 +6,10 @@ from app.manual import Chapter
 
 
 def figures_of(chapter: Chapter) -> list[tuple[str, str]]:
-    """Example and figure of every picture; the file is named after both."""
+    """Return the example and the figure of every picture. The name of the picture's file consists of both names."""
     return re.findall(r"\]\(figures/([\w-]+)\.([\w-]+)\.png\)", chapter.text)
 
 
 def studies_of(chapter: Chapter) -> list[str]:
-    """The name of every picture of a study; `studies.json` says of which."""
+    """Return the names of all pictures of studies. The file `studies.json` describes the study of each name."""
     return re.findall(r"\]\(studies/([\w-]+)\.png\)", chapter.text)

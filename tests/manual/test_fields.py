@@ -1,4 +1,4 @@
-"""The table of inputs and outputs: complete against the OpenAPI document, and its rows lead to the code."""
+"""The table of inputs and outputs contains all fields of the OpenAPI document, and its rows lead to the code."""
 
 import random
 import re
@@ -26,7 +26,7 @@ NOT_TOLD = {"/v1/rexs/results"}  # a file
 
 
 def properties(schema: dict[str, Any], path: str = "") -> Iterator[str]:
-    """The paths of the fields that a schema has, those of values and not of sections."""
+    """Yield the paths of the fields in a schema that contain values. The paths of sections are left out."""
     if "$ref" in schema:
         schema = DOCUMENT["components"]["schemas"][schema["$ref"].rpartition("/")[2]]
     inner = [part for name in ("anyOf", "oneOf", "allOf") for part in schema.get(name, ())]
@@ -44,7 +44,7 @@ def properties(schema: dict[str, Any], path: str = "") -> Iterator[str]:
 
 
 def documented() -> Iterator[tuple[str, str, str]]:
-    """Section, address and path of every field that the OpenAPI document has."""
+    """Yield the section, address and path of every field in the OpenAPI document, without figures and files."""
     calculations = {each.path for each in CALCULATIONS}
     for endpoint, operations in DOCUMENT["paths"].items():
         for operation in operations.values():
@@ -66,7 +66,10 @@ def test_the_table_has_the_fields_of_the_openapi_document() -> None:
 
 
 def test_ten_drawn_fields_lead_to_the_line_that_declares_them() -> None:
-    """A row names the attribute; its package has the line that gives it its value."""
+    """A row names a module, a class and an attribute of the solvers.
+
+    The source of this module declares this attribute in this class.
+    """
     declared = [each for each in entries() if each.section in {"Requests", "Answers"} and each.cells[9]]
     for entry in random.Random(42).sample(declared, 10):
         module, kind, name = entry.cells[9].strip("`").rsplit(".", 2)
@@ -76,7 +79,7 @@ def test_ten_drawn_fields_lead_to_the_line_that_declares_them() -> None:
 
 
 def test_no_class_of_a_field_is_made_by_machinery() -> None:
-    """The class that the table names for a field stands in the module that it names."""
+    """The table names a module and a class for each field, and the source of the module defines the class."""
     for name in {each.cells[10].strip("`") for each in entries()}:
         module, _, kind = name.rpartition(".")
         source = ROOT / f"{module.replace('.', '/')}.py"

@@ -1,10 +1,11 @@
-"""What of the manual the code makes: tables, pictures, anchors. `python -m tests.manual.test_generated` renews them.
+"""The tables and anchors of the manual agree with the code. `python -m tests.manual.test_generated` renews them.
 
-The chapter on inputs and outputs is made whole, by `tests.manual.fields`; `docs/fields.md` leads to it.
+The command also renews the pictures, and the whole chapter on inputs and outputs, which `tests.manual.fields` writes.
+The symbolic link `docs/fields.md` leads to this chapter.
 
-In a chapter a table stands between `<!-- generated: NAME -->` and `<!-- end -->`. Pictures are named after an example
-and one of its figures, or after a study; they are for readers of the repository, the service draws its own. Before
-each numbered equation stands an anchor for them; the service's equations are anchors themselves.
+In a chapter, a generated table stands between `<!-- generated: NAME -->` and `<!-- end -->`. A picture is named after
+an example and one of its figures, or after a study. These pictures and the anchors before numbered equations are for
+readers of the repository. The service draws its own pictures, and its equations are anchors themselves.
 """
 
 import asyncio
@@ -52,13 +53,16 @@ def table(header: tuple[str, ...], rows: Iterator[tuple[str, ...]]) -> str:
 
 
 def comparison(model: str) -> str:
-    """What is printed and what is computed."""
+    """Return the table that compares the printed numbers of a model with the computed numbers."""
     header = ("statement", "source", "printed", "computed", "unit", "deviation", "remark")
     return table(header, (_compared(statement.row()) for statement in STATEMENTS[model]))
 
 
 def _compared(row: Row) -> tuple[str, ...]:
-    """One line; what is rounding, in the number or in its deviation, is zero."""
+    """Return one row of the comparison.
+
+    A computed number below 1e-9 is written as zero. A deviation that is rounded to zero has no sign.
+    """
     outcome = "holds" if row.holds else "does not hold"
     deviation = outcome if row.deviation is None else f"{100 * row.deviation:+.1f} %"
     deviation = deviation.replace("-0.0", "0.0").replace("+0.0", "0.0")
@@ -67,7 +71,7 @@ def _compared(row: Row) -> tuple[str, ...]:
 
 
 def settings_table() -> str:
-    """Every setting."""
+    """Return the table of all settings."""
     return table(
         ("variable", "what", "default"),
         (
@@ -84,7 +88,7 @@ def _default(value: object) -> str:
 
 
 def endpoint_table() -> str:
-    """Every operation of the contract."""
+    """Return the table of all operations in the OpenAPI document, except the operations that draw figures."""
     paths = app.openapi()["paths"]
     return table(
         ("address", "what"),
@@ -98,7 +102,10 @@ def endpoint_table() -> str:
 
 
 def _said(operation: dict[str, str]) -> str:
-    """The summary, or the description where the summary is but the function's name."""
+    """Return the summary of an operation.
+
+    If the summary is only the function's name, return the first paragraph of the description.
+    """
     summary = operation["summary"]
     if operation["operationId"].startswith(summary.lower().replace(" ", "_")):
         return " ".join(operation["description"].split("\n\n")[0].split())
@@ -106,7 +113,7 @@ def _said(operation: dict[str, str]) -> str:
 
 
 def generated(name: str) -> str:
-    """The content of one block."""
+    """Return the table that belongs in the block with this name."""
     kind, _, model = name.partition(" ")
     return {"comparison": lambda: comparison(model), "settings": settings_table, "endpoints": endpoint_table}[kind]()
 
@@ -125,7 +132,7 @@ def test_every_comparison_stands_in_the_manual() -> None:
 
 
 def anchored(text: str) -> str:
-    """A chapter with an anchor before each numbered equation."""
+    """Return the text of a chapter with an anchor before each numbered equation."""
     return NUMBERED.sub(lambda found: f'<a id="{anchor(found[2])}"></a>\n\n{found[1]}', text)
 
 
@@ -146,7 +153,7 @@ def _renewed(block: re.Match[str]) -> str:
 
 
 def study_figure(name: str) -> bytes:
-    """The picture of a study."""
+    """Return the picture of a study as a PNG file."""
     shown = shown_studies()[name]
     asked = Asked(shown.path, shown.pairs, {**shown.controls, "theme": "light"})
     study = checked(study_page(shown.page), asked, STUDY_POINTS, DEADLINE_S)
@@ -187,7 +194,7 @@ def renew_figures() -> None:
 
 
 def fields_chapter() -> str:
-    """The chapter "Inputs and outputs"."""
+    """Return the text of the chapter "Inputs and outputs" in Markdown."""
     return fields.chapter(table)
 
 

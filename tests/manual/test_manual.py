@@ -1,4 +1,4 @@
-"""The manual and the code name each other, its links lead somewhere, its examples run."""
+"""The manual and the code name each other, the links of the manual have targets, and its examples run."""
 
 import doctest
 import re
@@ -24,13 +24,13 @@ def test_every_chapter_is_served_and_no_file_is_left_out() -> None:
 
 
 def test_every_tag_is_an_equation_of_its_own() -> None:
-    """A block that the pattern of equations misses would have no anchor."""
+    """The pattern must find the equation of every tag, because an equation that is not found has no anchor."""
     tags = [tag for chapter in chapters().values() for tag in re.findall(r"\\tag\{([^}]+)\}", chapter.text)]
     assert sorted(tags) == sorted(equations())
 
 
 def test_the_text_of_an_equation_is_that_of_no_other() -> None:
-    """A block without a number may stand before one with a number."""
+    """The text of a numbered equation must not include an unnumbered block that stands before the equation."""
     assert [number for number, equation in equations().items() if "$" in equation.text] == []
 
 
@@ -48,7 +48,7 @@ def test_every_cited_equation_stands_in_the_manual() -> None:
 
 
 def test_every_function_that_cites_an_equation_is_named_below_it() -> None:
-    """Modules and classes may cite what they are about."""
+    """Only modules and classes may cite an equation without being named below the equation."""
     unnamed = [
         (name, number)
         for name, found in CITED.items()
@@ -60,7 +60,10 @@ def test_every_function_that_cites_an_equation_is_named_below_it() -> None:
 
 
 def test_every_equation_of_ours_is_implemented() -> None:
-    """Equations of papers may be printed only to be corrected; ours stand here because they are computed."""
+    """Every equation of our own names a function that implements the equation.
+
+    An equation from a paper needs no function, because the manual may print this equation only to correct it.
+    """
     assert [number for number, equation in equations().items() if " " not in number and not equation.functions] == []
 
 
@@ -82,7 +85,10 @@ def test_figures_are_there(name: str) -> None:
 
 
 def test_every_model_shows_where_it_fails() -> None:
-    """In its limits of validity, by a study of the running service that can be opened."""
+    """The section "Limits of validity" of every model with its own endpoint shows the picture of a study.
+
+    The pictures in the chapters, the picture files and the studies that the service shows have the same names.
+    """
     for name in set(NAMES) - {"heat-balance", "spectrum", "service", "fields"}:  # no endpoint of its own
         assert f"](studies/{name}.png)" in chapters()[name].section("Limits of validity")
     names = sorted(name for each in chapters().values() for name in studies_of(each))
@@ -107,7 +113,7 @@ def test_examples_run(name: str) -> None:
 
 @pytest.fixture(scope="module")
 def pages(client: httpx.Client) -> dict[str, str]:
-    """Every page of the manual by its path."""
+    """Return all pages of the manual. The keys are the paths of the pages."""
     paths = ["/manual", "/manual/functions", *(f"/manual/{name}" for name in NAMES)]
     found = {}
     for path in paths:

@@ -1,4 +1,4 @@
-"""Every result names the place in the manual that says how it is computed, and links to it."""
+"""Every result names the place in the manual that says how the result is computed, and links to this place."""
 
 import re
 from importlib import import_module
@@ -23,7 +23,7 @@ DRAWN = 10
 
 
 def listed(calculation: Calculation) -> list[Leaf]:
-    """What the tables of results and of derived numbers list."""
+    """Return the fields that stand in the tables of results and of derived numbers."""
     shown = [leaf for leaf in leaves(calculation.response) if leaf.path.split(".")[0] not in NOT_RESULTS - {"derived"}]
     return [leaf for leaf in shown if leaf.is_scalar or (leaf.declared.index and not leaf.axes)]
 
@@ -34,7 +34,7 @@ def test_every_result_names_its_place_in_the_manual(calculation: Calculation) ->
 
 
 def test_no_place_is_of_something_else() -> None:
-    """Every entry names a dataclass of the solvers and fields that it declares."""
+    """Every entry of `PLACES` names a dataclass of the solvers, and only fields that this dataclass declares."""
     for name, places in PLACES.items():
         module, _, kind = name.rpartition(".")
         declared = quantities(getattr(import_module(f"solvers.{module}"), kind))

@@ -1,9 +1,13 @@
-"""The hand method for turbomachinery couplings and the friction that was measured.
+"""The coupling model agrees with the bounds of a hand method for turbomachinery couplings and with measured friction.
 
-Bloch, Improving Machinery Reliability, pp. 208-210: 21,806 N m (193,000 lb in), pitch diameter 228.6 mm, face 33.0 mm,
-friction 0.3, misalignment 0.057 degrees, pressure angle 20 degrees. Its moments are bounds: contact at the tooth's end,
-the whole load on the worst teeth. The book does not give the teeth; 72 of diametral pitch 8 fit the diameter.
-Calistrat, J. Mech. Des. 103 (1981), p. 54: friction of high-speed gear couplings up to 0.16, usually far lower.
+Bloch, Improving Machinery Reliability, pp. 208-210, explains the hand method with a torque of 21,806 N m (193,000 lb
+in), a pitch diameter of 228.6 mm, a face width of 33.0 mm, a coefficient of friction of 0.3, a misalignment of 0.057
+degrees and a pressure angle of 20 degrees. The moments of the hand method are bounds: the contact is at the end of the
+tooth, and the worst teeth carry the whole load. The book does not state the number of teeth; 72 teeth of diametral
+pitch 8 agree with the diameter.
+
+Calistrat, J. Mech. Des. 103 (1981), p. 54, states coefficients of friction of high-speed gear couplings of up to 0.16;
+usually they are far lower.
 """
 
 from math import cos, radians

@@ -1,6 +1,6 @@
-"""Pahl, "The operating characteristics of gear-type couplings", figure by figure.
+"""The model reproduces the figures of Pahl, "The operating characteristics of gear-type couplings".
 
-Numbers without a source in the paper are those of an independent calculation of the same statement.
+Expected numbers that the paper does not contain are from an independent calculation of the same statement.
 """
 
 from dataclasses import replace
@@ -54,7 +54,10 @@ def curves(model: KinematicModel = "tangential", **coupling: float) -> Kinematic
 
 
 def peak_angle(values: np.ndarray) -> float:
-    """Angle [rad] of the largest value of a curve over half a revolution, by a parabola through three points."""
+    """Return the angle [rad] at which a curve is largest in the first half of a revolution.
+
+    A parabola through three points gives the angle.
+    """
     half = values[: 2 * QUARTER]
     top = int(np.argmax(half))
     before, at, after = half[top - 1], half[top], half[top + 1]
@@ -184,7 +187,7 @@ def test_figure_4_pitch_errors_of_the_order_of_the_displacement_disturb_the_load
 
 @cache
 def figure_5(misalignment: float, *orders: tuple[int, float, float]) -> np.ndarray:
-    """Harmonics of the inertia force with these orders of the pitch deviations."""
+    """Return the harmonics of the inertia force for a misalignment [deg] and these orders of the pitch deviations."""
     errors = harmonic_pitch_errors(*orders)
     return solve_orbit(pahl_coupling(misalignment, speed=1000.0, pitch_errors=errors)).inertia_force.harmonics_y
 

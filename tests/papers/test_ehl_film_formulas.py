@@ -1,4 +1,7 @@
-"""Isothermal films against published regressions: Nijenbanning, Venner and Moes; Pan and Hamrock; Dowson-Higginson."""
+"""Isothermal films agree with published regressions.
+
+The regressions are by Nijenbanning, Venner and Moes, by Pan and Hamrock, and by Dowson and Higginson.
+"""
 
 from dataclasses import replace
 from math import sqrt
@@ -19,13 +22,16 @@ FINE = Model(thermal=False, rheology="newtonian", nodes=361)
 
 
 def isothermal(line_load: float, viscosity: float, oil: Lubricant) -> LineContactResult:
-    """Both surfaces at 1 m/s; `viscosity` [Pa s]."""
+    """Solve an isothermal contact of two surfaces that move at 1 m/s. `line_load` is in N/m, `viscosity` in Pa s."""
     contact = Contact(line_load, RADIUS, 1.0, 1.0)
     return solve(LineContactInputs(contact, lubricant=replace(oil, viscosity=viscosity), model=FINE))
 
 
 def over_moes(m: float, l: float, law: PressureViscosityLaw, viscosity: float) -> tuple[float, float]:
-    """Central and minimum film of an incompressible oil over the regressions of Moes; U = 1e-11."""
+    """Return the central and the minimum film of an incompressible oil, each divided by the regression of Moes.
+
+    The speed parameter U is 1e-11.
+    """
     speed_parameter = 1e-11
     alpha = l / (MODULUS * speed_parameter**0.25)
     oil = Lubricant(viscosity, pressure_viscosity=alpha, pressure_viscosity_law=law, compressible=False)
@@ -46,21 +52,29 @@ ROELANDS = [(2, 0), (2, 14), (20, 14), (200, 14)]
     [*((*each, "barus", THIN) for each in BARUS), *((*each, "roelands", 0.2) for each in ROELANDS)],
 )
 def test_incompressible_film_against_moes(m: float, l: float, law: PressureViscosityLaw, viscosity: float) -> None:
-    """Central and minimum film within 5 %, the accuracy of the regression; reference ratios 0.993 to 1.044.
+    """Central and minimum film agree with the regression within 5 %, which is the accuracy of the regression.
 
-    Roelands' law grows less under pressure, but decides little where the film forms: 5 % for an oil of 0.2 Pa s.
+    For Barus' law, the ratios of an independent calculation are 0.993 to 1.044. Roelands' law gives a lower viscosity
+    under pressure than Barus' law. This hardly matters where the film forms: with an oil of 0.2 Pa s, the films for
+    Roelands' law are also within 5 %.
     """
     assert over_moes(m, l, law, viscosity) == pytest.approx((1.0, 1.0), rel=0.05)
 
 
 def test_isoviscous_film_is_exact_to_a_percent() -> None:
-    """L = 0, M = 2: reference 0.995 and 1.022 of the regression."""
+    """At L = 0 and M = 2, the central film is 0.995 of the regression, and the minimum film is 1.022 of the regression.
+
+    These ratios come from an independent calculation.
+    """
     assert over_moes(2, 0, "roelands", THIN) == pytest.approx((0.995, 1.022), abs=0.01)
 
 
 @pytest.mark.parametrize("w", [1.1e-5, 1e-4, 1e-3])
 def test_compression_thins_the_centre_of_the_film(w: float) -> None:
-    """By the density at the Hertzian pressure, 0.3 to 2.9 GPa; reference 0.98-1.05 of it."""
+    """Compression divides the central film by the relative density at the Hertzian pressure (0.3 to 2.9 GPa).
+
+    In an independent calculation, the product of film ratio and relative density is 0.98 to 1.05.
+    """
     line_load, viscosity = w * MODULUS * RADIUS, 0.02
     thick = isothermal(line_load, viscosity, Lubricant(compressible=False))
     thin = isothermal(line_load, viscosity, Lubricant())
@@ -70,12 +84,12 @@ def test_compression_thins_the_centre_of_the_film(w: float) -> None:
 
 
 def compressible(w: float, u: float, g: float) -> LineContactResult:
-    """W = w/(E' R), U = eta um/(E' R), G = alpha E'."""
+    """Solve an isothermal contact with W = w/(E' R), U = eta um/(E' R), G = alpha E' and a compressible oil."""
     return isothermal(w * MODULUS * RADIUS, u * MODULUS * RADIUS, Lubricant(pressure_viscosity=g / MODULUS))
 
 
 def pan_hamrock(w: float, u: float, g: float) -> tuple[float, float, float]:
-    """Minimum and central film over R, spike over E' (Pan and Hamrock 1989)."""
+    """Return minimum and central film, both divided by R, and the spike divided by E' (Pan and Hamrock 1989)."""
     return (
         1.714 * w**-0.128 * u**0.694 * g**0.568,
         2.922 * w**-0.166 * u**0.692 * g**0.470,
@@ -107,12 +121,15 @@ def test_compressible_film_against_pan_and_hamrock(
 
 @pytest.mark.parametrize("w", [2e-5, 1e-4, 5e-4])
 def test_spike_against_pan_and_hamrock(w: float) -> None:
-    """U = 1e-11, G = 5007: 0.94-1.04, and 2 % for the node that is nearest to it."""
+    """At U = 1e-11 and G = 5007, the spike of an independent calculation is 0.94 to 1.04 of the regression.
+
+    The test allows a further 2 %, because the nearest node does not lie exactly at the spike.
+    """
     pressure = compressible(w, 1e-11, 5007).pressure
     assert pressure.second_maximum / MODULUS / pan_hamrock(w, 1e-11, 5007)[2] == pytest.approx(0.99, abs=0.07)
 
 
 def test_dowson_higginson_film_at_point_a() -> None:
-    """0.5045 um with E' and the mean speed."""
+    """With E' and the mean speed, the formula of Dowson and Higginson gives a film of 0.5045 um at point A."""
     result = solve(LineContactInputs(POINT_A, lubricant=Lubricant()))
     assert result.film.dowson_higginson == pytest.approx(0.5045e-6, rel=2e-4)

@@ -1,4 +1,7 @@
-"""Method B of ISO/TR 15144-1 against printed calculations: a public implementation, an FVA program, a diagram."""
+"""Method B of ISO/TR 15144-1 agrees with printed numbers and is on the safe side of a printed diagram.
+
+The numbers come from a public implementation and from an FVA program.
+"""
 
 import numpy as np
 import pytest

@@ -1,4 +1,4 @@
-"""Practice: oils by ISO 3448, ASTM D341 and D2270; scuffing by ISO/TR 13989-1 on FZG type A gears."""
+"""Oils agree with ISO 3448, ASTM D341 and D2270; scuffing on FZG type A gears agrees with ISO/TR 13989-1."""
 
 from dataclasses import replace
 from math import log, log10
@@ -58,7 +58,10 @@ def test_a_grade_of_a_synthetic_oil_has_the_index_of_its_kind(kind: OilKind, ind
 
 @pytest.mark.parametrize(("kind", "expected"), [("mineral", 25.6), ("pao", 33.9), ("polyglycol", 44.8)])
 def test_grade_220_at_90_degrees_by_kind(kind: OilKind, expected: float) -> None:
-    """Data sheets give 33.5 and 46.8; by a mineral oil's curve the films were 20 and 40 % too thin."""
+    """At 90 C, data sheets give 33.5 mm2/s for a polyalphaolefin and 46.8 mm2/s for a polyglycol of grade 220.
+
+    With the viscosity of a mineral oil, the films would be 20 and 40 % too thin.
+    """
     assert iso_vg(220, kind).kinematic_viscosity(363.15) * 1e6 == pytest.approx(expected, abs=0.1)
 
 
@@ -77,7 +80,10 @@ def test_a_viscosity_at_40_degrees_alone_has_the_index_of_its_kind() -> None:
 
 
 def test_walther_is_a_straight_line_in_its_coordinates() -> None:
-    """log log (nu + 0.7) against log T, halfway in log T between 40 and 100 C."""
+    """The quantity log log (nu + 0.7) is a linear function of log T.
+
+    At the middle of log T between 40 and 100 C, its value is the mean of the values at both ends.
+    """
     oil = OilSheet(220e-6, 19e-6)
     middle = (313.15 * 373.15) ** 0.5
     heights = [log10(log10(oil.kinematic_viscosity(t) * 1e6 + 0.7)) for t in (313.15, middle, 373.15)]
@@ -86,7 +92,10 @@ def test_walther_is_a_straight_line_in_its_coordinates() -> None:
 
 @pytest.mark.parametrize(("kind", "expected"), [("mineral", 16.4), ("pao", 12.0), ("ester", 10.8), ("polyglycol", 9.4)])
 def test_pressure_viscosity_at_38_square_millimetres_per_second(kind: OilKind, expected: float) -> None:
-    """Mineral VG 150 at 70 C, nu = 38.1 mm2/s: 9.904 38.1^0.1390 = 16.4 1/GPa, and the other kinds likewise."""
+    """At nu = 38.1 mm2/s, the coefficient of a mineral oil is 9.904 x 38.1^0.1390 = 16.4 1/GPa.
+
+    An oil VG 150 has this viscosity at 70 C. The other kinds are computed at the same viscosity.
+    """
     oil = OilSheet(150e-6, 14.8e-6, kind)
     assert oil.kinematic_viscosity(343.15) * 1e6 == pytest.approx(38.1, abs=0.05)
     assert oil.pressure_coefficient(343.15) * 1e9 == pytest.approx(expected, abs=0.06)
@@ -132,7 +141,7 @@ def test_a_lubricant_given_by_its_viscosity_stays_what_it_is() -> None:
 
 @pytest.mark.parametrize(("viscosity_40", "viscosity_100", "index"), [(73.30, 8.86, 92.0), (22.83, 5.05, 156.0)])
 def test_viscosity_index_of_oils_with_a_known_one(viscosity_40: float, viscosity_100: float, index: float) -> None:
-    """The two worked examples of ASTM D2270."""
+    """The viscosity indices agree with the two worked examples of ASTM D2270."""
     assert viscosity_index(viscosity_40 * 1e-6, viscosity_100 * 1e-6) == pytest.approx(index, abs=0.5)
 
 
@@ -162,7 +171,7 @@ def test_oil_that_does_not_thin_is_refused() -> None:
 
 
 def test_the_law_ends_where_oils_hardly_flow() -> None:
-    """VG 46 at -40 C has 8.9e4 mm2/s, at -41 C 1.06e5."""
+    """An oil VG 46 has 8.9e4 mm2/s at -40 C. At -41 C it would have 1.06e5 mm2/s and is refused."""
     assert iso_vg(46).kinematic_viscosity(233.15) == pytest.approx(8.91e-2, rel=1e-3)
     assert refused(iso_vg(46).lubricant, 232.15) == ("oil_too_thick", "lubricant.kinematic_viscosity_40")
 
@@ -198,7 +207,7 @@ def test_mean_friction_of_the_load_stages(stage: int, expected: float) -> None:
 
 
 def test_mean_friction_grows_with_the_fifth_root_of_load_and_factors() -> None:
-    """The face load factor loads the friction law as other factors do: K_Hbeta 1.5 raises it by 8.4 %."""
+    """The face load factor raises the friction as the other load factors do: K_Hbeta = 1.5 raises it by 8.4 %."""
     plain = friction(fzg(8))
     assert friction(fzg(8, application_factor=1.5)) / plain == pytest.approx(1.5**0.2, rel=1e-12)
     assert friction(fzg(8, dynamic_factor=1.2, mesh_load_factor=1.1)) / plain == pytest.approx(1.32**0.2, rel=1e-12)
@@ -206,13 +215,19 @@ def test_mean_friction_grows_with_the_fifth_root_of_load_and_factors() -> None:
 
 
 def test_light_loads_count_as_150_newtons_per_millimetre() -> None:
-    """Stage 4 is at 60.75 N m / 36 mm / 20 mm = 84 N/mm; without the bound its coefficient would be 0.044."""
+    """The line load of stage 4, 60.75 N m / 36 mm / 20 mm = 84 N/mm, is raised to the bound of 150 N/mm.
+
+    Without the bound, the coefficient of friction would be 0.044.
+    """
     assert friction(fzg(1)) == friction(fzg(4)) == pytest.approx(0.0496, abs=5e-5)
     assert friction(fzg(4, application_factor=150 / (60.75 / 0.72))) == pytest.approx(friction(fzg(4)))
 
 
 def test_pitch_line_velocity_counts_up_to_50_metres_per_second() -> None:
-    """The working pitch radius is 36.6 mm; at 125 m/s the bound raises the coefficient by (125/50)^0.2 = 1.201."""
+    """At 125 m/s, the bound of 50 m/s raises the coefficient of friction by the factor (125/50)^0.2 = 1.201.
+
+    The working pitch radius is 36.6 mm.
+    """
     pair = fzg(8)
 
     def at(velocity: float) -> float:
@@ -228,10 +243,11 @@ def loss_friction(inputs: LoadDistributionInputs, kind: OilKind = "mineral", vis
 
 @pytest.mark.parametrize(("stage", "expected"), [(4, 0.0397), (6, 0.0420), (8, 0.0471), (10, 0.0515), (12, 0.0553)])
 def test_friction_of_the_losses_of_the_load_stages(stage: int, expected: float) -> None:
-    """By hand, stage 8: T_1 = 239.3 N m on r_b1 = 33.83 mm and 20 mm are 353.7 N/mm.
+    """The coefficient of friction agrees with a calculation by hand for stage 8, which gives 0.0471.
 
+    T_1 = 239.3 N m, r_b1 = 33.83 mm and a face width of 20 mm give a line load of 353.7 N/mm.
     v_SigmaC = 2 x 8.3 m/s x sin 22.44 degrees = 6.336 m/s, rho_redC = 8.382 mm: (353.7/(6.336 x 8.382))^0.2 = 1.4614.
-    0.048 x 1.4614 x 15^-0.05 x 0.35^0.25 = 0.0471; stages 4 and below count as 150 N/mm.
+    The coefficient is 0.048 x 1.4614 x 15^-0.05 x 0.35^0.25 = 0.0471. Up to stage 4, the line load counts as 150 N/mm.
     """
     assert loss_friction(fzg(stage)) == pytest.approx(expected, abs=6e-5)
 
@@ -261,13 +277,13 @@ def test_lubricant_factors(kind: OilKind, share: float) -> None:
 
 @pytest.mark.parametrize(("stage", "expected"), [(6, 150.74), (8, 205.76), (10, 276.50), (12, 362.97), (14, 465.15)])
 def test_scuffing_temperature_of_a_stage(stage: int, expected: float) -> None:
-    """80 + 2.25 X_L S^2 with X_L = 15^-0.05 = 0.87335, by hand."""
+    """The expected values are 80 + 2.25 X_L S^2 in C with X_L = 15^-0.05 = 0.87335, computed by hand."""
     factor = practice.lubricant_factor(0.015, "mineral")
     assert practice.scuffing_temperature(stage, 1.0, factor) - 273.15 == pytest.approx(expected, abs=0.01)
 
 
 def test_structure_factor_weighs_in_the_steel() -> None:
-    """80 + (0.85 + 1.4 0.45) 12^2 = 293.12 C for an austenitic share that halves X_W."""
+    """At stage 12, steel with X_W = 0.45 has a scuffing temperature of 80 + (0.85 + 1.4 x 0.45) 12^2 = 293.12 C."""
     assert practice.scuffing_temperature(12, 0.45, 1.0) - 273.15 == pytest.approx(293.12, abs=1e-9)
 
 
@@ -290,7 +306,10 @@ def test_speed_of_the_test_is_that_of_its_name() -> None:
 
 
 def test_mesh_stiffness_over_single_stiffness_of_the_fzg_c_pair() -> None:
-    """A printed FVA report has 11.48 and 15.23 N/(mm um); the mean dedendum that it took for both is not printed."""
+    """A printed FVA report has a single stiffness of 11.48 N/(mm um) and a mesh stiffness of 15.23 N/(mm um).
+
+    The report does not print the mean dedendum of both gears. The test assumes 1.4 modules.
+    """
     pair = GearPairInputs(
         GearTeeth(16, 0.1817, None, 1.4, tip_diameter=82.45e-3),
         GearTeeth(24, 0.1715, None, 1.4, tip_diameter=118.35e-3),

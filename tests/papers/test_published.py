@@ -1,4 +1,4 @@
-"""Every published statement of the pages' comparison table holds."""
+"""Every published statement in the comparison table of the pages holds."""
 
 import re
 from collections.abc import Iterator
@@ -41,7 +41,10 @@ def test_a_statement_that_is_not_reproduced_says_why() -> None:
 
 
 def equations(folder: str) -> Iterator[tuple[str, int]]:
-    """Paper and number of the equations that docstrings and comments name; the solvers need not name the paper."""
+    """Yield paper and number of every equation that the Python files in a folder name.
+
+    The solvers need not name the paper, because the path of the file determines the paper.
+    """
     for path in (ROOT / folder).rglob("*.py"):
         paper = "Milian" if "pumping" in str(path.relative_to(ROOT)) else "Xue"
         for word, first, joint, last in CITED.findall(path.read_text("utf-8")):

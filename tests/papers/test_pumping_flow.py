@@ -1,7 +1,7 @@
-"""Milian's statements on the flow, and reference numbers of independent calculations of the same equations.
+"""The flow is compared with Milian's statements and with independent calculations of the same equations.
 
-Where a number of the second-order scheme is tested, the test names the limit it converges to; limits come from grids of
-up to 1600 slices. Reference numbers of the pocket chain are those of an adaptive stiff integrator.
+A test of the second-order scheme names the limit to which the computed number converges. The limits come from grids of
+up to 1600 slices. The reference numbers of the pocket chain come from an adaptive stiff integrator.
 """
 
 from dataclasses import replace
@@ -43,7 +43,7 @@ def chokes(gears: GearPairInputs, backlash: float, model: PumpingModel, limit: f
 
 @pytest.mark.parametrize("exponent", [1.2, 1.3, 1.4, 5 / 3])
 def test_eq_7_is_the_choked_limit_of_the_nozzle_law(exponent: float) -> None:
-    """Milian Eq. 7."""
+    """If the downstream pressure is low, the nozzle law gives the choked mass flux of Milian Eq. 7."""
     air = gas(Ambient(isentropic_exponent=exponent))
     for downstream in (0.0, 0.3 * 3e5):
         flux = mass_flux(air, 3e5, 3e5 / (air.constant * 400.0), downstream)[0]
@@ -51,7 +51,7 @@ def test_eq_7_is_the_choked_limit_of_the_nozzle_law(exponent: float) -> None:
 
 
 def test_eq_6_2_corrected_keeps_the_gas_law() -> None:
-    """Milian Eq. 6."""
+    """If the misprint in Milian Eq. 6 is corrected, a closed pocket heats up isentropically."""
     # printed rho = rho_old (p_old/p_new)^(1/g) contradicts Eqs. 1 and 6-1: a closed pocket would not follow Eq. 6-1
     model = replace(ISENTROPIC, gap=TIP.gap, discharge_coefficient=0.0)
     field = pinion(run(TABLE_1, 1000, model, 1, 0.0)).field
@@ -63,7 +63,7 @@ def test_eq_6_2_corrected_keeps_the_gas_law() -> None:
 
 @pytest.mark.parametrize("closure", [CHAIN, ISENTROPIC])
 def test_isentropic_compression_of_a_closed_pocket(closure: PumpingModel) -> None:
-    """Milian Eq. 1."""
+    """The pressure in a closed pocket follows the isentropic law of Milian Eq. 1."""
     # p_max/p_e = (S_start/S_min)^1.4 = 37.622 for Table 1 with tip gaps
     model = replace(closure, gap=TIP.gap, discharge_coefficient=0.0)
     result = pinion(run(TABLE_1, 1000, model, 1, 0.0))
@@ -93,7 +93,7 @@ def test_incompressible_against_slow_gas() -> None:
 @pytest.mark.parametrize(("gears", "speed"), CASES)
 @pytest.mark.parametrize("model", [PRINTED, PumpingModel(), TIP, CHAIN, ISENTROPIC])
 def test_mass_and_energy_are_conserved(gears: GearPairInputs, speed: float, model: PumpingModel) -> None:
-    """Milian Eqs. 2-4."""
+    """The flow conserves mass (Milian Eqs. 2-4). It also conserves energy unless the closure is isentropic."""
     result = pinion(run(gears, speed, model))
     flow = result.mass_flow
     assert result.balance.mass_error < 1e-12

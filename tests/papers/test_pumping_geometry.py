@@ -1,4 +1,4 @@
-"""Geometry behind Milian's Fig. 3 and Tables 1-3."""
+"""The tests compute the geometry of the tooth spaces in Milian's Fig. 3 and Tables 1-3."""
 
 from dataclasses import replace
 from math import degrees, hypot, pi
@@ -72,7 +72,7 @@ def test_contact_duration_is_the_contact_ratio(fig_3: StrokeTable) -> None:
 @pytest.mark.parametrize("gears", [TABLE_1, CASE_1, CASE_2])
 @pytest.mark.parametrize("of_pinion", [True, False])
 def test_displacement_law_of_gear_pumps(gears: GearPairInputs, *, of_pinion: bool) -> None:
-    """Milian Eq. 5."""
+    """While both flanks seal, the area of a tooth space (Milian Eq. 5) grows with the square of the angle."""
     # S = S_0 + K phi^2 with K = r_b [(z1/z2)(N - s) - s] while both flanks seal: exact, without backlash
     pair = gear_pair(replace(gears, centre_distance=None))
     space = tooth_space(pair, 0.0, Gap.CONTACT, of_pinion=of_pinion)

@@ -1,6 +1,7 @@
-"""Statements of Xue, Zhang and Wang (GJRE-A 20(1), 2020), section IV, on Blok's flash temperature and film thickness.
+"""The tests check section IV of Xue, Zhang and Wang (GJRE-A 20(1), 2020) on Blok's flash temperature and the film.
 
-References: an independent calculation with linear contact and transverse sections, as in the load distribution's tests.
+The reference numbers come from an independent calculation with linear contact and transverse sections, as in the tests
+of the load distribution.
 """
 
 from dataclasses import replace
@@ -43,13 +44,16 @@ def scuffing(pair: int, temperatures: Temperatures = HOT) -> Scuffing:
 
 
 def contact_at(result: LoadDistribution, x: float, line_load: float) -> Contact:
-    """The contact at x along the path under a line load [N/m]."""
+    """Return the contact at the position x [m] along the path, under a line load [N/m]."""
     path = result.path_of_contact
     return Contact(line_load, float(reduced_radius(path.plane, x)), *path.surface_speeds(x, PAPER_SPEED))
 
 
 def test_contact_at_the_start_of_mesh_of_pair_1() -> None:
-    """Xue Eqs. 13 and 18; Xue Eqs. 25 and 27 at the printed line load (Figs. 22 and 23)."""
+    """Radius and speeds follow Xue Eqs. 13 and 18; flash temperature and film follow Xue Eqs. 25 and 27.
+
+    Flash temperature and film (Figs. 22 and 23) are computed at the printed line load.
+    """
     contact, oil = contact_at(scuffing(1).distribution, 0.0, 273e3), Lubricant()
     assert contact.radius * 1e3 == pytest.approx(4.0666, abs=1e-4)
     assert (contact.speed_1, contact.speed_2) == pytest.approx((1.018, 3.708), abs=1e-3)
@@ -83,13 +87,13 @@ def test_fig_22_the_dedendum_is_hottest_and_the_pitch_point_cold_in_every_pair(p
 
 @pytest.mark.parametrize(("ratio", "regime"), [(0.9, "boundary"), (1.0, "mixed"), (4.0, "mixed"), (4.1, "full_film")])
 def test_equation_28_regimes(ratio: float, regime: str) -> None:
-    """Xue Eq. 28."""
+    """The ratio of film thickness to roughness (Xue Eq. 28) determines the lubrication regime."""
     assert thickness_regime(ratio) == regime
     assert thickness_ratio(ratio * 0.5e-6, 0.3e-6, 0.4e-6) == pytest.approx(ratio, rel=1e-12)
 
 
 def test_equation_26_safety_in_either_unit() -> None:
-    """Xue Eq. 26."""
+    """The safety factor (Xue Eq. 26) is the same whether the temperatures are in kelvins or in degrees Celsius."""
     assert safety_factor(433.15, 333.15, 383.15) == pytest.approx(2.0, rel=1e-12)
     assert safety_factor(160.0, 60.0, 110.0) == pytest.approx(2.0, rel=1e-12)
     result = scuffing(1)
@@ -120,7 +124,10 @@ def test_the_oil_enters_at_bulk_temperature() -> None:
 
 
 def iso_flash(gears: GearPairInputs, scale: float) -> tuple[float, float]:
-    """Blok's formula and ISO's at one point of the path; ISO's mu X_M X_G (w cos a_wt)^(3/4) v^(1/2) / a^(1/4)."""
+    """Return the flash temperature [K] at one point of the path, by Blok's formula and by ISO/TR 13989-1.
+
+    The formula of ISO/TR 13989-1 is mu X_M X_G (w cos a_wt)^(3/4) v^(1/2) / a^(1/4).
+    """
     result = solve_load_distribution(replace(paper_pair(1), gears=gears))
     path, pair = result.path_of_contact, result.path_of_contact.pair
     x = scale * path.length

@@ -1,4 +1,4 @@
-"""Every value of a file that a request has a field for is taken, and nothing that a file says is dropped silently."""
+"""Requests take every value of a file for which they have a field; the answer lists the values that are not used."""
 
 from fnmatch import fnmatch
 from math import acos, asin, atan, cos, degrees, pi, radians, sin, sqrt, tan
@@ -45,7 +45,7 @@ def value_at(request: dict[str, Any], path: str) -> Any:
 
 
 def gear_set(version: str = "2.0", **of: dict[str, Given]) -> Unit:
-    """The turbo unit with a material of its gears; `of` sets attributes of the first component of each type."""
+    """Return the turbo unit with a material of its gears. `of` sets attributes of all components of a type."""
     unit = turbo_unit(version)
     gears = [each["id"] for each in unit.components if each["type"] == "cylindrical_gear"]
     steel = unit.add("material", elastic_modulus=(206000.0, "N / mm^2"))
@@ -387,7 +387,10 @@ def test_an_attribute_becomes_its_field(
 
 
 def test_heat_of_the_material_reaches_the_flash() -> None:
-    """A poor conductor is hotter: without its conductivity the flash temperature was 43.7 instead of 74.3 K."""
+    """The thermal conductivity and heat capacity in the file change the flash temperature from 43.7 to 74.3 K.
+
+    A contact is hotter if its material conducts heat poorly.
+    """
     steel = {"thermal_conductivity": (15.0, "W / (m K)"), "thermal_capacity": (500.0, "J / (kg K)")}
     flashes = []
     for attributes in ({}, steel):
@@ -458,7 +461,7 @@ def test_the_bulk_temperature_is_the_mean_of_the_gears() -> None:
 
 
 def turbine_stage(basic_profile: bool = True) -> Unit:
-    """A wind turbine's fast stage whose tip diameters are not those of its basic profile."""
+    """Return the fast stage of a wind turbine. The tip diameters do not follow from the basic profile."""
     unit = Unit("1.4")
     unit.add("gear_unit")
     shafts = [unit.add("shaft"), unit.add("shaft")]
@@ -586,7 +589,7 @@ def test_the_common_face_width_counts_before_the_smaller_face() -> None:
 
 
 def test_a_transverse_module_becomes_the_normal_one() -> None:
-    """The pressure angle of REXS is the normal one and shifts in mm count normal modules."""
+    """In REXS, the pressure angle is the normal one. A profile shift in mm is divided by the normal module."""
     unit = gear_set(cylindrical_gear_flank={"addendum_modification": (1.2, "mm")})
     for each in unit.components:
         if each["type"] == "cylindrical_gear":
@@ -754,7 +757,7 @@ SCHEMAS = {
         line.split(":") for line in (Path(__file__).parent / "schema_attributes.txt").read_text("ascii").splitlines()
     )
 }
-"""The attributes of each type of component in the schemas of REXS 1.0 to 2.0."""
+"""Names of the attributes that each type of component has in the schemas of REXS 1.0 to 2.0."""
 NOT_IN_FILES = {
     "detail": "a choice of the answer",
     "states": "a choice of the calculation",
@@ -786,11 +789,11 @@ NOT_IN_FILES = {
     "*.bearings.*.viscosity_pa_s": "follows from the oil and the feed temperature",
     "*.thrust_bearing.*": "unknown to the standard",
 }
-"""Fields that no file gives, as patterns, and why."""
+"""Patterns of the fields of a request that no file gives, each with the reason."""
 
 
 def full_unit() -> Unit:
-    """A unit that states everything a request can take from a file."""
+    """Return a unit that states every value that a request can take from a file."""
     unit = gear_set()
     for type_, name, value, size, *_ in MEANINGS:
         for each in unit.components:
@@ -838,7 +841,10 @@ def test_every_field_of_a_request_is_reached_or_listed_with_its_reason(endpoint:
 
 
 def placed(unit: Unit, type_: str) -> int:
-    """A component of a type in the place where the reader looks for it."""
+    """Return the id of a component of the given type.
+
+    If the unit has no such component, make one in the place where the reader looks for it.
+    """
     present = [each["id"] for each in unit.components if each["type"] == type_]
     if present:
         return int(present[0])
@@ -859,7 +865,10 @@ def placed(unit: Unit, type_: str) -> int:
 
 @pytest.mark.parametrize("type_", SCHEMAS)
 def test_no_attribute_of_the_standard_is_dropped_silently(type_: str) -> None:
-    """Each is used or listed with a reason of its own; none falls to that of unknown names."""
+    """Every attribute of the standard is either used or listed with the reason why it is not used.
+
+    The reason for unknown names does not occur.
+    """
     unit = gear_set()
     component = placed(unit, type_)
     for name in SCHEMAS[type_]:

@@ -1,4 +1,4 @@
-"""Reading and writing files, whatever comes."""
+"""REXS files are read and written without loss; unreadable files are refused with a reason."""
 
 import base64
 import io
@@ -110,7 +110,7 @@ def test_a_model_among_other_files_of_an_archive(name: str) -> None:
 
 
 def test_a_dictionary_of_gigabytes_is_refused() -> None:
-    """The decoder would ask for as much memory as the archive says."""
+    """An LZMA archive is refused, because its decoder would request as much memory as the archive states."""
     packed = bytearray(archive("a.rexs", packing=zipfile.ZIP_LZMA))
     properties = packed.index(b"a.rexs") + len("a.rexs") + 4  # behind version and size of the properties
     packed[properties + 1 : properties + 5] = b"\xff\xff\xff\xff"
@@ -247,7 +247,7 @@ typed = st.one_of(st.floats(allow_nan=False, allow_infinity=False), st.integers(
 
 @st.composite
 def models(draw: st.DrawFn) -> Unit:
-    """A small model with values of every kind and a load spectrum."""
+    """Draw a small model with values of every kind and up to two load cases."""
     unit = Unit(draw(st.sampled_from(["1.0", "1.3", "1.4", "1.7", "2.0"])))
     attributes = st.dictionaries(names, st.tuples(typed, st.sampled_from(["mm", "deg", "°", "none", ""])), max_size=4)
     for _ in range(draw(st.integers(1, 4))):
@@ -261,14 +261,14 @@ def models(draw: st.DrawFn) -> Unit:
 
 
 def as_text(value: Any) -> Any:
-    """A value as XML states it."""
+    """Return a value in the form that the reader returns for XML: a text or a list of texts."""
     if isinstance(value, list):
         return [str(each) for each in value]
     return str(value).lower() if isinstance(value, bool) else str(value).strip()
 
 
 def in_base64(content: bytes) -> bytes:
-    """The arrays of a file in XML, each in one text."""
+    """Return an XML file with the numbers of every array coded as one text in base64."""
     root = ET.fromstring(content)  # noqa: S314  our own
     for array in root.iter("array"):
         numbers = [float(cell.text or "") for cell in array]

@@ -1,4 +1,4 @@
-"""Gear units sent to the service."""
+"""The service and the command line take files of gear units and answer them or refuse them."""
 
 import io
 import json
@@ -169,7 +169,7 @@ def test_the_command_prints_the_answer(
 
 
 def nasty_files() -> dict[str, bytes]:
-    """Files that are read or refused, and never an error of the server."""
+    """Return unusual files. The service may read or refuse such a file, but must not fail with a server error."""
     unit = turbo_unit()
     few = three_stages("1.4")
     for each in few.components:

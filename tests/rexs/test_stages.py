@@ -1,4 +1,7 @@
-"""What becomes of a gear unit's file: stages with requests, cases, and what is missing, assumed, ignored or wrong."""
+"""The answer about a file contains the stages of the gear unit with their requests and load cases.
+
+The answer also lists missing fields, assumed values, ignored attributes and faults of the file.
+"""
 
 import base64
 import json
@@ -93,7 +96,10 @@ def test_power_enters_where_torque_and_speed_have_one_sign() -> None:
 
 @pytest.mark.parametrize("relation", ["assembly", "ordered_assembly"])
 def test_a_torque_counts_about_the_axis_of_its_shaft(relation: str) -> None:
-    """Speed and torque of a shaft have one sign where power enters, however the load is attached to it."""
+    """Where power enters, speed and torque of the shaft have the same sign.
+
+    The kind of relation that attaches the load to the shaft does not matter.
+    """
     unit = turbo_unit()
     wheel_shaft = [each for each in unit.components if each["type"] == "shaft"][1]
     driving, driven = (each["id"] for each in unit.components if each["type"] == "external_load")
@@ -173,7 +179,7 @@ def test_load_cases() -> None:
 
 
 def test_a_load_spectrum_is_ready_to_be_asked() -> None:
-    """Cases and request of every endpoint make a study as they stand."""
+    """The request and the load cases for an endpoint make a valid spectrum study without any change."""
     unit = turbo_unit()
     load = next(each["id"] for each in unit.components if each["type"] == "external_load")
     for percent, power in ((30.0, 5000.0), (70.0, 9000.0)):
@@ -317,7 +323,7 @@ def test_drive_train_of_a_turbo_unit() -> None:
 
 
 def test_a_unit_described_from_the_other_end_gives_the_same_loads() -> None:
-    """Both shafts' u axes reversed, all coordinates with them: the unit is the same."""
+    """The u axes of both shafts are reversed, and all coordinates are converted. The unit remains the same."""
     plain = answer(turbo_unit())["stages"][0]["requests"]["/v1/drive-train"]
     unit = turbo_unit()
     for each in unit.components:

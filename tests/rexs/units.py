@@ -1,4 +1,4 @@
-"""Gear units as REXS files, written by the tests: a description in Python, rendered as XML or JSON."""
+"""Gear units for the tests: a unit is described in Python and written as a REXS file in XML or JSON."""
 
 import io
 import json
@@ -12,7 +12,7 @@ Value = float | int | str | bool | list[Any]
 
 @dataclass
 class Unit:
-    """A gear unit under construction."""
+    """A gear unit; tests add components and relations, and write the unit as a REXS file."""
 
     version: str = "1.4"
     components: list[dict[str, Any]] = field(default_factory=list)
@@ -20,21 +20,21 @@ class Unit:
     cases: list[dict[int, dict[str, tuple[Value, str]]]] = field(default_factory=list)
 
     def add(self, type_: str, name: str = "", **attributes: tuple[Value, str]) -> int:
-        """A component with attributes as (value, unit); its id."""
+        """Add a component and return its id. Each attribute is a pair of value and unit."""
         self.components.append({"id": len(self.components) + 1, "type": type_, "name": name, "attributes": attributes})
         return len(self.components)
 
     def relate(self, type_: str, order: int | None = None, **roles: int) -> None:
-        """A relation between components by role."""
+        """Add a relation. `roles` contains the id of the component in each role."""
         self.relations.append({"id": len(self.relations) + 1, "type": type_, "order": order, "roles": roles})
 
     def of(self, component: int) -> dict[str, tuple[Value, str]]:
-        """The attributes of a component, to be changed."""
+        """Return the attributes of a component. Changes of the returned dictionary change the unit."""
         found: dict[str, tuple[Value, str]] = self.components[component - 1]["attributes"]
         return found
 
     def xml(self) -> bytes:
-        """The file as .rexs."""
+        """Return the unit as the content of a .rexs file."""
         lines = [
             '<?xml version="1.0" encoding="UTF-8"?>',
             f'<model applicationId="tests" applicationVersion="1" date="2026-01-01" version="{self.version}">',
@@ -63,7 +63,7 @@ class Unit:
         return "\n".join([*lines, "</model>", ""]).encode()
 
     def json(self) -> bytes:
-        """The file as .rexsj."""
+        """Return the unit as the content of a .rexsj file."""
         model: dict[str, Any] = {
             "version": self.version,
             "applicationId": "tests",
@@ -97,7 +97,7 @@ class Unit:
         return json.dumps({"model": model}).encode()
 
     def zipped(self) -> bytes:
-        """The file as .rexsz."""
+        """Return the unit as the content of a .rexsz file."""
         buffer = io.BytesIO()
         with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
             archive.writestr("model.rexs", self.xml())
@@ -125,7 +125,10 @@ def _json(attributes: dict[str, tuple[Value, str]]) -> list[dict[str, Any]]:
 
 
 def three_stages(version: str = "1.0") -> Unit:
-    """A helical unit of three stages, driven at 1,400 1/min with 4.724562 N m: 23/67, 13/76, 14/87."""
+    """Return a helical unit of three stages with 23/67, 13/76 and 14/87 teeth.
+
+    The driving shaft has a speed of 1,400 1/min and a torque of 4.724562 N m.
+    """
     old = version == "1.0"
     degree = "°" if version < "1.4" else "deg"
     flank_type = "flank_geometry" if old else "cylindrical_gear_flank"
@@ -175,7 +178,7 @@ def three_stages(version: str = "1.0") -> Unit:
 
 
 def turbo_unit(version: str = "2.0") -> Unit:
-    """The turbo gear unit of the starter example: 12 MW at 10,000 1/min, 39/130, in journal bearings."""
+    """Return the turbo gear unit of the starter example: 12 MW, 10,000 1/min, 39/130 teeth, journal bearings."""
     unit = Unit(version)
     gear_unit = unit.add("gear_unit", "Turbo unit")
     casing = unit.add("gear_casing", temperature_lubricant=(50.0, "C"))

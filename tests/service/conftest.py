@@ -1,4 +1,7 @@
-"""A browser that allows no other host and no complaint, and the address of a module's own service."""
+"""Fixtures for tests in a browser, and for the address of a test module's own service.
+
+A test fails if a page requests anything from another host or reports an error.
+"""
 
 from collections.abc import Callable, Iterator
 
@@ -23,13 +26,16 @@ def browser() -> Iterator[Browser]:
 
 @pytest.fixture(scope="module")
 def address(service: Server) -> str:
-    """Where a module's own `service` answers."""
+    """Return the address of the service that the fixture `service` of the test module starts."""
     return service[1]
 
 
 @pytest.fixture
 def visit(browser: Browser, server: str) -> Iterator[Callable[..., Page]]:
-    """Open an address in a fresh window that allows no other host and no complaint."""
+    """Yield a function that opens an address in a new window.
+
+    The test fails if a page requests anything from another host or reports an error.
+    """
     complaints: list[str] = []
     opened: list[BrowserContext] = []
 

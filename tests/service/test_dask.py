@@ -1,4 +1,7 @@
-"""Studies on a real Dask cluster of processes: the same lines in the same order, and what a loss costs."""
+"""Studies on a real Dask cluster of processes give the same lines in the same order as studies in one process.
+
+If a worker is lost, the study still gives all lines. If the scheduler is lost, the stream ends with an error line.
+"""
 
 import json
 import shutil
@@ -32,7 +35,7 @@ Service = tuple[DaskProcesses, str]
 
 @contextmanager
 def running_service(workers: int) -> Iterator[Service]:
-    """A service whose studies run on a cluster of so many workers."""
+    """Start a service whose studies run on a cluster with the given number of workers."""
     with running_cluster(workers) as cluster, served(cluster.address) as (_, address):
         yield cluster, address
 
@@ -71,7 +74,7 @@ def lines(text: str) -> list[dict[str, Any]]:
 
 
 def local(body: dict[str, Any], plan: Planner = Sweep) -> list[dict[str, Any]]:
-    """The lines of a study calculated in this process."""
+    """Return the lines of a study that is calculated in this process."""
     return timeless(lines_of(plan(body, 20_000, 30.0)))
 
 
@@ -138,7 +141,7 @@ def assert_unavailable(address: str) -> None:
 
 @pytest.fixture
 def edited(tmp_path: Path) -> Path:
-    """The project's sources with one constant of the solvers changed."""
+    """Return a folder with a copy of the project's sources in which one constant of the solvers is changed."""
     for package in ("app", "solvers"):
         shutil.copytree(ROOT / package, tmp_path / package, ignore=shutil.ignore_patterns("__pycache__"))
     module = tmp_path / "solvers" / "coupling" / "lubrication.py"

@@ -1,4 +1,4 @@
-"""The docs page in a real browser without any other host: it shows every operation and its examples."""
+"""In a real browser, the docs page shows every POST operation and runs an example without requests to other hosts."""
 
 from collections.abc import Callable
 

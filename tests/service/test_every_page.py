@@ -1,4 +1,7 @@
-"""Every kind of page in Chromium, on a phone and a desk, light, dark, without script: it fits, all can use it."""
+"""Every kind of page fits the windows of a phone and a desktop, and is accessible in light and dark colours.
+
+Without script, every page still fits the window of a phone. The browser is Chromium.
+"""
 
 from collections.abc import Callable
 
@@ -20,7 +23,10 @@ OPEN = "document.querySelectorAll('details').forEach(part => { part.open = true;
 
 
 def pages_of(calculation: Calculation) -> dict[str, str]:
-    """The pages of a calculation: its form, its first example, what goes wrong with it, and all that it leads to."""
+    """Return the addresses of the pages of a calculation.
+
+    These pages are the form, the first example, an error, a comparison, the report and the studies.
+    """
     path, case = page_path(calculation), example_link(calculation, examples_of(calculation)[0])
     query = case.partition("?")[2]
     field = query.partition("=")[0]
@@ -47,7 +53,7 @@ PAGES |= {address: address for address in READING}
 
 
 def faults(page: Page) -> dict[str, object]:
-    """What does not fit or cannot be used by everybody, at both widths."""
+    """Return what is too wide or not accessible on a page, in the windows of a phone and of a desktop."""
     found = dict[str, object]()
     for size in (PHONE, DESK):
         page.set_viewport_size(size)

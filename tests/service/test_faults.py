@@ -1,4 +1,4 @@
-"""Faults of workers and clients cost only their own request: deaths, stops, disconnects, deadlines, full queues."""
+"""Faults of workers and clients (deaths, stops, disconnects, deadlines, full queues) cost only their own request."""
 
 import random
 import signal
@@ -47,7 +47,7 @@ def service() -> Iterator[Server]:
 
 
 def assert_recovers(address: str, seconds: float = PATIENCE_S) -> None:
-    """The service computes again and nothing is left in the queue."""
+    """Wait until no calculation runs or waits and the service answers a new calculation."""
 
     def recovered() -> bool:
         idle = metric(address, RUNNING) == 0
@@ -66,7 +66,10 @@ def test_killed_workers_cost_only_their_own_requests() -> None:
 
 
 def outcomes_while_killing(process: subprocess.Popen[str], address: str) -> Counter[str]:
-    """What the answers were while workers died: right, wrong, or the code of the problem."""
+    """Kill workers while clients send requests, and count the answers by outcome.
+
+    The outcome is `right` or `wrong`, or the code of the problem if the answer is a problem.
+    """
     cases = [example for _, example in sorted(examples().items()) if example.endpoint.startswith("/v1/coupling")]
     references = {
         case.name: httpx.post(address + case.endpoint, json=case.request, timeout=30).content for case in cases
@@ -219,7 +222,7 @@ def test_a_storm_of_disconnects_leaves_nothing_behind(service: Server) -> None:
 
 @contextmanager
 def calculating(path: str, **settings: int) -> Iterator[tuple[subprocess.Popen[str], Future[httpx.Response]]]:
-    """A service of one's own with one calculation under way, and its answer."""
+    """Start a service and one calculation; yield the service's process and the future of the answer."""
     with faulty_server(**settings) as (process, address), ThreadPoolExecutor(1) as pool:
         flight = pool.submit(httpx.post, address + path, timeout=60)
         wait_for_metric(address, RUNNING, 1)

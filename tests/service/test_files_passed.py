@@ -1,6 +1,7 @@
-"""How many modules one request passes: what somebody reads who follows it from the application to the answer's bytes.
+"""A coupling request passes few modules, so that a reader can follow it from the application to the answer's bytes.
 
-Not counted: the modules of the solvers, which are the model; app/log.py, whose thread writes the log.
+Two kinds of modules are not counted: the modules of the solvers, which are the model, and app/log.py, whose thread
+writes the log.
 """
 
 import asyncio

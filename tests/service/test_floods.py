@@ -1,4 +1,4 @@
-"""Limits where bytes arrive: headers, bodies, connections. Slow and greedy clients are left to the reverse proxy."""
+"""The service limits headers, bodies and connections; slow and greedy clients are left to the reverse proxy."""
 
 import http.client
 import json
@@ -36,7 +36,10 @@ def service() -> Iterator[Server]:
 
 
 def flood(address: str, opening: bytes, piece: bytes) -> tuple[int, bytes]:
-    """Send until the service stops taking it: how much it took, what it answered."""
+    """Send `opening`, then `piece` repeatedly, until the service takes no more or `FLOOD` bytes are sent.
+
+    Return the number of bytes sent in pieces, and the answer.
+    """
     sent = 0
     with connected(address) as connection:
         connection.sendall(opening)

@@ -1,4 +1,4 @@
-"""The log has one line of JSON for every answer and nothing of its content; a reader that stalls holds nothing up."""
+"""The log has one line of JSON per request without its content; a stalled reader of the log delays no answer."""
 
 import http.client
 import json

@@ -1,4 +1,4 @@
-"""As a new user would: from the start page to a printed report, by what the pages show and nothing else."""
+"""A new user comes from the start page to a printed report with nothing but what the pages show."""
 
 import re
 import time
@@ -17,7 +17,7 @@ SECONDS_A_CLICK = 4.0  # to find what to click
 
 
 class User:
-    """Clicks and types by visible labels, and keeps count."""
+    """Click and type by visible labels, and count the clicks and the fields."""
 
     def __init__(self, page: Page) -> None:
         self.page = page
@@ -25,7 +25,7 @@ class User:
         self.fields = 0
 
     def click(self, target: Locator) -> None:
-        """One click on something that can be seen."""
+        """Click a visible target."""
         expect(target).to_be_visible()
         target.click()
         self.clicks += 1
@@ -35,12 +35,12 @@ class User:
         self.click(self.page.locator("#form summary .name").get_by_text(section, exact=True))
 
     def fill(self, label: str, text: str) -> None:
-        """Type into the field of a label."""
+        """Type a text into the field with this label."""
         self.page.get_by_role("textbox", name=re.compile(rf"^{label}( |,|$)")).locator("visible=true").first.fill(text)
         self.fields += 1
 
     def choose(self, label: str, text: str) -> None:
-        """Choose from the menu of a label."""
+        """Choose an entry from the menu with this label."""
         menu = self.page.get_by_role("combobox", name=re.compile(rf"^{label}( |,|$)"))
         menu.locator("visible=true").first.select_option(label=text)
         self.fields += 1

@@ -1,4 +1,4 @@
-"""The notebooks run from beginning to end; their assertions compare equations by hand with the library."""
+"""The notebooks run to the end; their assertions compare equations written by hand with the library."""
 
 import json
 import os

@@ -1,4 +1,4 @@
-"""Schemathesis against the whole OpenAPI document, every check on."""
+"""Schemathesis finds no fault in the operations of the OpenAPI document with all of its checks."""
 
 import subprocess
 import sys
@@ -13,7 +13,10 @@ pytestmark = pytest.mark.service
 
 
 def schemathesis(*options: str) -> subprocess.CompletedProcess[str]:
-    """A run against a service whose studies end after a second: a thousand of a minute each would say nothing more."""
+    """Run Schemathesis against a service whose studies end after one second.
+
+    The program starts about a thousand studies. A minute for each study would not find more faults.
+    """
     program = Path(sys.executable).with_name("schemathesis")
     with running_server(study_points=16, spectrum_solves=16, study_deadline_s=1) as (_, address):
         httpx.get(f"{address}/openapi.json", timeout=60).raise_for_status()  # made once; the program waits for 10 s
@@ -27,12 +30,15 @@ def schemathesis(*options: str) -> subprocess.CompletedProcess[str]:
 
 
 def test_every_operation() -> None:
-    """With all phases and more examples: `schemathesis run --checks all --max-examples 1000 ADDRESS/openapi.json`."""
+    """Schemathesis finds no fault in a short search.
+
+    A longer search has all phases: `schemathesis run --checks all --max-examples 1000 ADDRESS/openapi.json`.
+    """
     outcome = schemathesis("--phases", "examples,fuzzing", "--max-examples", "5")
     assert outcome.returncode == 0, outcome.stdout[-10_000:]
 
 
 def test_requests_that_fit_the_schema_are_answered_or_refused_by_a_known_rule() -> None:
-    """Valid requests get most of the time: refusals that nobody needs are found by many of them only."""
+    """The tests spend most of their time on valid requests, because only many of these reveal a needless refusal."""
     outcome = schemathesis("--mode", "positive", "--phases", "fuzzing", "--max-examples", "30", "--workers", "2")
     assert outcome.returncode == 0, outcome.stdout[-10_000:]

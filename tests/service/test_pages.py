@@ -1,4 +1,4 @@
-"""Pages in a real browser: fill, read, follow, share, compare, print; without script, by keyboard, on a phone."""
+"""In a real browser the pages are filled, read, shared and printed, also without script, by keyboard and on a phone."""
 
 import re
 from collections.abc import Callable
@@ -21,9 +21,12 @@ STARTERS = [example.name for example in examples().values() if example.starter]
 COUPLING = "pahl-axial-displacement"
 SCUFFING = "xue-pair-1-scuffing"
 MOST_PAGES = 10
-"""Of a drive train at true size; a page wider than the paper would be shrunk, and its text with it."""
+"""Largest number of pages of a printed report, as a drive train needs it at true size.
+
+If a page were wider than the paper, the browser would shrink the page and its text.
+"""
 SUBSCRIPT = 8
-"""Texts up to this many characters in the smaller type of an index may be lower than 7 points."""
+"""Subscripts are in smaller type: a text with at most this number of characters may be lower than 7 points."""
 
 
 def value_of(page: Page, path: str) -> str:
@@ -483,7 +486,7 @@ def test_the_help_of_a_field_covers_no_field(visit: Callable[..., Page], name: s
 
 @pytest.mark.parametrize("touch", [False, True], ids=["mouse", "touch"])
 def test_a_choice_below_an_open_help_is_hit(visit: Callable[..., Page], touch: bool) -> None:
-    """The help between them closes, and the layout moves, when the button is up."""
+    """The help between the two choices closes only after the button is released, and only then the layout moves."""
     page = visit(address_of(SCUFFING), viewport=PHONE, has_touch=touch, is_mobile=touch)
     choice = page.locator("fieldset.choice").first
     one, other = choice.locator("label.pick").nth(0), choice.locator("label.pick").nth(1)

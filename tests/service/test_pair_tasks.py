@@ -1,4 +1,4 @@
-"""Tasks over several pages, at the desk with the keyboard and on a phone by touch."""
+"""Users complete tasks over several pages with the keyboard at the desk and by touch on a phone."""
 
 import re
 from collections.abc import Callable
@@ -21,7 +21,10 @@ WINDOWS = pytest.mark.parametrize("window", [DESK, PHONE], ids=["desk", "phone"]
 
 
 def act(page: Page, window: dict[str, Any], name: str) -> None:
-    """Open the list of other calculations or follow a link in it: by touch on a phone, by the keyboard at the desk."""
+    """Open the list of other calculations, or follow a link in the list.
+
+    On a phone this is done by touch, at the desk with the keyboard.
+    """
     target = page.locator(".carried").get_by_text(name, exact=True).locator("visible=true").first
     if window is PHONE:
         target.tap()
@@ -105,7 +108,7 @@ def test_what_is_scrolled_to_is_not_below_the_cards(visit: Callable[..., Page]) 
 
 
 def follow(link: Locator, window: dict[str, Any]) -> None:
-    """Follow a link or press a button: by touch on a phone, by the keyboard at the desk."""
+    """Follow a link or press a button: by touch on a phone, with the keyboard at the desk."""
     if window is PHONE:
         link.tap()
     else:

@@ -18,7 +18,7 @@ sys.modules["resource"] = None
 for name in ("fork", "forkpty", "sched_getaffinity", "sched_setaffinity"):
     delattr(os, name)
 """
-"""Every Python process of the service runs this first."""
+"""Every Python process of the service runs this code first. The code removes what such a platform lacks."""
 
 
 def test_starts_and_answers_with_less(tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""The service below a prefix: behind a proxy that strips it and one that does not, every address leads somewhere."""
+"""Below a prefix every address in a page works, whether the proxy strips the prefix or passes it on."""
 
 import json
 import re
@@ -41,7 +41,7 @@ def service() -> Iterator[str]:
 
 @pytest.fixture(scope="module")
 def proxies(service: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
-    """nginx that passes the prefix on, and one that strips it."""
+    """Yield the addresses of two nginx proxies: `passed` passes the prefix on, and `stripped` strips it."""
     below = {"location / {": f"location {PREFIX}/ {{", "rate=20r/s": "rate=2000r/s", "burst=60": "burst=9000"}
     stripping = below | {"proxy_pass http://tribodrive;": "proxy_pass http://tribodrive/;"}
     with ExitStack() as stack:
@@ -52,7 +52,7 @@ def proxies(service: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[
 
 
 def addresses_in(html: str) -> set[str]:
-    """Where links, forms, images, styles and scripts of a page lead, and what its script opens."""
+    """Return the addresses of all links, forms, images, styles, scripts and studies in a page."""
     found = {unescape(each) for each in ADDRESSES.findall(html)}
     studies = re.findall(r'data-study="([^"]+)"', html)
     found |= {json.loads(unescape(each))["address"] for each in studies}
@@ -60,7 +60,7 @@ def addresses_in(html: str) -> set[str]:
 
 
 def pages() -> list[str]:
-    """A page of every kind, with a case of every calculation that is quick."""
+    """Return the addresses of pages of every kind, and of the pages of a case for every quick calculation."""
     found = ["/", "/docs", "/manual", "/manual/coupling", "/manual/functions"]
     for each in CALCULATIONS:
         found.append(page_path(each))

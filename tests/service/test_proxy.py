@@ -1,4 +1,4 @@
-"""The service behind the reverse proxy that deploy/ configures."""
+"""The service works behind the reverse proxy that deploy/ configures, and attacks end at this proxy."""
 
 import json
 import shutil
@@ -35,19 +35,19 @@ def service() -> Iterator[Server]:
 
 @pytest.fixture(scope="module")
 def proxy(address: str, tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """The address of nginx in front of a service."""
+    """Yield the address of nginx in front of the service. nginx waits only 1 s, not 10 s, for headers and bodies."""
     with running_proxy(tmp_path_factory.mktemp("nginx"), address, **{"timeout 10s": "timeout 1s"}) as outside:
         yield outside
 
 
 def attacking(address: str) -> socket.socket:
-    """A connection of a client of its own, whose rate is not that of the others."""
+    """Connect from 127.0.0.3, so that nginx limits these requests separately from those of other clients."""
     target = urlsplit(address)
     return socket.create_connection((target.hostname, target.port), timeout=4, source_address=("127.0.0.3", 0))
 
 
 def received(address: str, *sent: bytes, pause_s: float = 0.0) -> bytes:
-    """What is answered to bytes after which nothing follows."""
+    """Send the bytes `sent` and nothing after them, and return the answer."""
     with attacking(address) as connection, suppress(OSError):
         for each in sent:
             connection.sendall(each)
@@ -99,7 +99,10 @@ def test_a_late_byte_and_a_late_end_cost_no_answer(proxy: str) -> None:
 
 
 def test_floods_reach_nobody_else(service: Server, proxy: str) -> None:
-    """Bodies of one-byte chunks, and pipelined requests whose answers nobody reads."""
+    """Two floods neither delay another client nor fill the memory of the service.
+
+    One flood sends bodies in chunks of one byte, the other pipelines requests whose answers nobody reads.
+    """
     process, direct = service
     httpx.get(f"{direct}/openapi.json", timeout=20)  # the first one takes a second
     before = memory_mb(process.pid)

@@ -1,4 +1,4 @@
-"""Printed reports have the pages they promise, in a browser."""
+"""A report that a browser prints has the promised number of pages."""
 
 import re
 

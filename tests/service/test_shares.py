@@ -1,4 +1,4 @@
-"""Clients and studies share the workers fairly: a call is answered whatever other clients do."""
+"""Clients and studies share the workers fairly: a call is answered, no matter what other clients do."""
 
 import json
 import threading
@@ -34,7 +34,10 @@ pytestmark = pytest.mark.service
 COUPLING = examples()["pahl-axial-displacement"]
 SUMMARY = {**COUPLING.request, "detail": "summary"}
 FAIR_S = 5.0
-"""What nearly every short call waits at most beside others: the rest of a call of a second, on a busy machine."""
+"""Time [s] within which nearly every short call is answered while other clients calculate.
+
+The short call may have to wait for the rest of a call of one second, on a busy machine.
+"""
 HONEST, GREEDY = "127.0.0.2", "127.0.0.3"
 
 
@@ -45,12 +48,15 @@ def service() -> Iterator[Server]:
 
 
 def client(address: str, source: str) -> httpx.Client:
-    """A client with an address of its own."""
+    """Return an HTTP client that sends from the address `source`."""
     return httpx.Client(base_url=address, timeout=60, transport=httpx.HTTPTransport(local_address=source))
 
 
 def honest_waits(address: str, count: int, pause_s: float = 0.05) -> list[float]:
-    """How long so many coupling summaries of another client take, each of them answered; in order of length [s]."""
+    """Send `count` coupling requests as another client, and return the sorted times until their answers [s].
+
+    Every request must be answered with a result. The requests ask for summaries.
+    """
     waits = []
     with client(address, HONEST) as own:
         for _ in range(count):
@@ -81,7 +87,10 @@ def test_beside_80_long_calculations_of_another_client(address: str) -> None:
 
 
 def test_every_owner_beside_others_in_a_closed_loop_advances(address: str) -> None:
-    """Four clients and a sweep on two workers; a fair share is 4 s of work in 10 s, and each gets half of it."""
+    """Four clients and a sweep share two workers, and each of the five gets more than half of its fair share.
+
+    The fair share is 4 s of computing time in 10 s.
+    """
     seconds, work_s = 10.0, 0.2
     counts: Counter[str] = Counter()
     end = time.monotonic() + seconds
@@ -110,7 +119,7 @@ def test_every_owner_beside_others_in_a_closed_loop_advances(address: str) -> No
 
 
 def sleeps(count: int) -> dict[str, Any]:
-    """A study of points that take as long as the clients' calculations."""
+    """Return a study of `count` points. Each of the points takes as long as a calculation of the clients."""
     return study_of(COUPLING.name, cases=[{"operation.speed_rpm": NAP}] * count)
 
 
@@ -151,7 +160,10 @@ def test_beside_two_studies_of_long_points(address: str) -> None:
 
 
 def test_points_of_a_study_end_with_it(service: Server) -> None:
-    """The workers are replaced; a whole point would leave them as they are."""
+    """The workers hang at points of the study, and are replaced after the client has left.
+
+    A worker whose point ends is not replaced.
+    """
     process, address = service
     wait_until(lambda: len(set(workers(process))) == 2)
     before = set(workers(process))
@@ -167,14 +179,17 @@ def test_points_of_a_study_end_with_it(service: Server) -> None:
 
 @pytest.fixture(scope="module")
 def one_worker() -> Iterator[str]:
-    """A service with one worker and three places in the queue, whose clients a header may name."""
+    """Yield the address of a service with one worker and three places in its queue.
+
+    The header `X-User` may name the client of a request.
+    """
     with faulty_server(workers=1, queue=3, deadline_s=4, client_header="X-User") as (_, address):
         yield address
 
 
 @pytest.mark.parametrize("named", [False, True])
 def test_a_full_queue_refuses_whoever_has_most_places(one_worker: str, named: bool) -> None:
-    """By address; or by a header, as behind a proxy all requests come from one."""
+    """Clients are distinguished by their addresses, or by a header if all of them come from the address of a proxy."""
     refused = metric(one_worker, "tribodrive_calculations_refused_total")
     names = [{"X-User": "greedy"}, {"X-User": "honest"}] if named else [{}, {}]
     with (

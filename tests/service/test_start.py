@@ -1,4 +1,4 @@
-"""The first start: open at once, coupling first, stoppable at any moment; and a cache in every state of disrepair."""
+"""At its first start the service opens at once, solves couplings first and can be stopped; bad caches do no harm."""
 
 import json
 import os
@@ -53,7 +53,7 @@ def coupling_status(address: str) -> int:
 
 
 def count_progress(address: str) -> int:
-    """How many stages are neither at the beginning nor at the end."""
+    """Return the number of stages that have begun but are not complete."""
     found = re.findall(r"(\d+) %", httpx.get(f"{address}/readyz", timeout=20).json()["detail"])
     return sum(0 < int(each) < 100 for each in found)
 
@@ -85,7 +85,7 @@ def test_cold_start_answers_coupling_first(tmp_path: Path) -> None:
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
 @pytest.mark.parametrize("after_s", [0.3, 1.5, 5.0, 9.0])
 def test_ends_at_any_moment_of_a_cold_start(tmp_path: Path, number: signal.Signals, after_s: float) -> None:
-    """Ctrl-C reaches all processes of the terminal's foreground group, other signals the service alone."""
+    """Ctrl-C reaches all processes of the terminal's foreground group. Other signals reach only the service process."""
     log = tmp_path / "log"
     with started_server(environment={"NUMBA_CACHE_DIR": str(tmp_path)}, log=log) as (process, _):
         time.sleep(after_s)
@@ -137,7 +137,7 @@ def test_the_image_checks_the_port_it_serves() -> None:
 
 @pytest.mark.parametrize("after_s", [0.0, 0.2, 1.0, 2.0, 4.0])
 def test_interrupts_of_the_start_say_nothing(tmp_path: Path, after_s: float) -> None:
-    """Counted from the first import of the service."""
+    """The signal is sent `after_s` seconds after the import of `argparse`, one of the first imports of the service."""
     log = tmp_path / "log"
     command = [sys.executable, "-X", "importtime", "-m", "app"]
     with started_server(command, log=log, log_level="error") as (process, _):
@@ -163,7 +163,10 @@ def test_runs_on_without_standard_streams(closed: str, tmp_path: Path) -> None:
 
 @pytest.mark.skipif(not socket.has_dualstack_ipv6(), reason="no IPv6 here")
 def test_the_unspecified_address_serves_both_families(tmp_path: Path) -> None:
-    """A client is the same by either, and so is a proxy on this machine, whose word for the client counts."""
+    """The service treats a client in the same way over IPv4 and over IPv6.
+
+    Over both, a proxy on this machine is trusted: the log shows the client that `X-Forwarded-For` names.
+    """
     log = tmp_path / "log"
     with started_server(host="::", log=log) as (_, address):
         addresses = [address, address.replace("127.0.0.1", "[::1]")]
@@ -176,7 +179,10 @@ def test_the_unspecified_address_serves_both_families(tmp_path: Path) -> None:
 
 
 def answer_after_a_start(cache: Path, log: Path) -> bytes:
-    """What a service with the kernels of few stages answers to a coupling with this cache."""
+    """Start a service with the kernels in `cache`, and return its answer to a coupling request.
+
+    The service loads the kernels of a few stages only.
+    """
     with started_server(FAULTY, environment={"NUMBA_CACHE_DIR": str(cache)}, log=log, workers=2) as (process, address):
         wait_until_warm(process, address)
         answer = httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=20)
@@ -186,7 +192,7 @@ def answer_after_a_start(cache: Path, log: Path) -> bytes:
 
 @pytest.fixture(scope="module")
 def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
-    """The answer with kernels that nobody damaged, about which nothing is said."""
+    """Return the answer to a coupling request from undamaged kernels. The log reports no process that died."""
     folder = tmp_path_factory.mktemp("whole")
     copy_of_cache(folder)
     answer = answer_after_a_start(folder, folder / "log")
@@ -195,7 +201,7 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
 
 
 def machine_code(cache: Path) -> list[Path]:
-    """The files of one module of the coupling."""
+    """Return the files with the machine code of `tooth_loads`, a module of the coupling."""
     files = sorted(cache.glob("*/tooth_loads.*.nbc"))
     assert len(files) > 5
     return files
@@ -244,7 +250,7 @@ exec "$@"
 
 @pytest.mark.skipif(os.getuid() != 0, reason="root alone can remount folders")
 def test_needs_nothing_to_be_writable_but_the_cache(tmp_path: Path) -> None:
-    """No temporary folder, no home."""
+    """Only the cache can be written: there is no home folder, and the temporary folder is read-only."""
     copy_of_cache(tmp_path)
     writable = READ_ONLY.replace("CACHE", str(tmp_path))
     command = [
@@ -293,7 +299,7 @@ def test_other_servers_serve_the_application(server: str, tmp_path: Path) -> Non
         wait_until_warm(process, address, socket=path)
 
         def ask(method: str, place: str, **options: Any) -> httpx.Response:
-            """An answer on a connection of its own, to whichever server process takes it."""
+            """Send a request on a new connection. Any of the server processes may answer it."""
             with httpx.Client(transport=httpx.HTTPTransport(uds=str(path) if path else None), timeout=60) as client:
                 return client.request(method, address + place, **options)
 

@@ -1,4 +1,4 @@
-"""Studies and faults: lost workers, full places, slow and leaving clients; nobody else notices."""
+"""Lost workers, full queues, and slow or leaving clients during a study do not affect other clients."""
 
 import json
 import os
@@ -55,13 +55,13 @@ def service() -> Iterator[Server]:
 
 
 def loads(count: int) -> dict[str, Any]:
-    """Points of some ten milliseconds."""
+    """Return a study of the load distribution with `count` points. A point takes a few milliseconds."""
     axis = {"path": SLOPE, "start": -20, "stop": 20, "count": count}
     return study_of("xue-pair-1-modified", vary=[axis], outputs=["pressure.max_mpa"])
 
 
 def couplings(count: int, outputs: Sequence[str] = ("axial_thrust.force_n",)) -> dict[str, Any]:
-    """Points of less than a millisecond."""
+    """Return a study of a coupling with `count` points. A point takes less than a millisecond."""
     axis = {"path": "operation.speed_rpm", "start": 100, "stop": 2000, "count": count}
     return study_of(COUPLING.name, vary=[axis], outputs=outputs)
 
@@ -74,7 +74,7 @@ def lines_of(address: str, body: object) -> list[dict[str, Any]]:
 
 @contextmanager
 def running_study(address: str, body: object) -> Iterator[Iterator[str]]:
-    """A study whose first point has come; leaving the context leaves the study."""
+    """Start a study, and yield its lines after its first point. The client leaves the study when the context ends."""
     with httpx.stream("POST", address + SWEEP, json=body, timeout=60) as response:
         found = response.iter_lines()
         while '"point"' not in next(found):
@@ -83,7 +83,7 @@ def running_study(address: str, body: object) -> Iterator[Iterator[str]]:
 
 
 def wait_until_free(address: str) -> None:
-    """No study runs; those that are left here would run for a minute or more."""
+    """Wait until no study runs. The service must end a study that its client has left."""
     wait_for_metric(address, "tribodrive_studies", 0)
 
 
@@ -202,7 +202,7 @@ def test_a_hundred_cancelled_sweeps_leave_nothing_behind(service: Server) -> Non
 
 
 def test_a_hanging_point_fails_alone(service: Server) -> None:
-    """Its worker is stopped by the deadline, and its neighbours are solved."""
+    """The deadline ends the worker that hangs. The points before and after the hanging point are solved."""
     process, address = service
     cases = [{"operation.speed_rpm": speed} for speed in (100, HANGING, 200)]
     found = numbers(lines_of(address, study_of(COUPLING.name, cases=cases)))
@@ -249,7 +249,7 @@ def test_nobody_calculates_what_nobody_reads(service: Server) -> None:
 
 
 def calculated_within(process: subprocess.Popen[str], seconds: float) -> float:
-    """Processor time that the workers spend within a time."""
+    """Return the processor time that the workers use within the next `seconds` seconds [s]."""
     before = processor_seconds(workers(process))
     time.sleep(seconds)
     return processor_seconds(workers(process)) - before
@@ -267,7 +267,7 @@ def test_a_study_that_lost_its_connection_goes_on_from_where_it_was(address: str
 
 @pytest.fixture(scope="module")
 def short_of_time(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, Path]]:
-    """A service whose studies end after a second, and its log."""
+    """Yield the address and the log of a service whose studies end after one second."""
     log = tmp_path_factory.mktemp("log") / "log"
     with faulty_server(workers=1, study_deadline_s=1, log=log) as (_, address):
         yield address, log
@@ -286,7 +286,7 @@ def test_the_deadline_of_a_study_ends_it_with_a_line(short_of_time: tuple[str, P
 
 
 def curve(count: int) -> str:
-    """The figure of a study of so many points."""
+    """Return the address of the figure of a study with `count` points."""
     figure = address_of("xue-pair-1-modified", "/vary/figures/curve.svg")
     return f"{figure}&x={SLOPE}&x.count={count}&show=pressure.max_mpa"
 

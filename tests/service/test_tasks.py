@@ -1,4 +1,4 @@
-"""What users come for, in Chromium from the start page by what pages show: answers without a snag, clicks counted."""
+"""In Chromium, users come from the start page to their answers in a few clicks, only by what the pages show."""
 
 import re
 import time
@@ -18,7 +18,7 @@ CROWNING = re.compile("^Which crowning forgives")
 
 
 def own_pair(user: User) -> None:
-    """A pair that is no example."""
+    """Fill in a gear pair that is not an example."""
     teeth = {"number of teeth, pinion": 21, "number of teeth, wheel": 64}
     for label, number in (teeth | {"module": 4, "face width": 50, "pinion speed": 1480}).items():
         user.fill(label, str(number))

@@ -1,4 +1,4 @@
-"""Studies in a real browser: the figure grows, a point opens its case, stop, share, download; without script too."""
+"""In a real browser a study draws its figure as points arrive, opens cases of points, and can be stopped and shared."""
 
 import json
 import re

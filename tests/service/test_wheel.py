@@ -1,4 +1,4 @@
-"""The wheel holds what the service needs and nothing else, and its command serves."""
+"""The wheel contains the files that the service needs and no others, and its command starts the service."""
 
 import subprocess
 import sys

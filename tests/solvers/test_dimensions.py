@@ -1,6 +1,7 @@
-"""The same machine in other units of length, mass and time: every declared number of every answer by its own unit.
+"""In other units of length, mass and time, every number of an answer changes by the factor of its declared unit.
 
-A constant with a dimension that hides in an equation, and a tolerance in metres that decides something, would show.
+These tests would show a constant with a hidden dimension in an equation, and a tolerance in metres that affects the
+result.
 """
 
 import numpy as np
@@ -34,7 +35,10 @@ def other_units(random: Generator) -> Units:
 
 @seeds(25, 1000)
 def test_coupling(random: Generator) -> None:
-    """The sliding velocity of the Tribology Handbook and weight have their own units."""
+    """All numbers of a coupling scale with their units, except those that depend on two constants with fixed units.
+
+    The constants are gravity and the sliding velocity limit of the Tribology Handbook.
+    """
     inputs, units = random_inputs(random), other_units(random)
     without = rf"{ABSOLUTE}|^limits\.(sliding_velocity_limit|allowable_misalignment|sleeve_centring_torque)$"
     one, other = solve_coupling(inputs), solve_coupling(in_other_units(inputs, units))
@@ -43,7 +47,11 @@ def test_coupling(random: Generator) -> None:
 
 @seeds(5, 100)
 def test_sleeve_orbit(random: Generator) -> None:
-    """An orbit repeats to 1e-12 m, of which the twelfth order of its force makes 144 times as much."""
+    """The iteration of the orbit ends at changes below 1e-12 m.
+
+    The tolerance of the comparison contains 144 times this change, because the force of order 12 is 144 times as
+    sensitive as the path.
+    """
     inputs, units = random_inputs(random, errors=True, single=True), other_units(random)
     one, other = solve_orbit(inputs), solve_orbit(in_other_units(inputs, units))
     tolerance = 1e-5 + 144 * 1e-12 / min(one.max_displacement, other.max_displacement)
@@ -53,11 +61,12 @@ def test_sleeve_orbit(random: Generator) -> None:
 
 @seeds(4, 200)
 def test_pumping(random: Generator) -> None:
-    """A slice that enters its stroke at the very time of a picture may be drawn there at rest or not.
+    """All numbers of the pumping model scale with their units, except the fields and the hottest position.
 
-    Of two places that are equally hot the first is told. Marching through the gas makes more of rounding: up to 5e-9 in
-    200 draws, and 3e-8 of uncertainties and pulsations, which are differences. Units of length, mass or time
-    alone make less than 1e-9.
+    If a slice enters its stroke exactly at a recorded angle, the field may show the slice before or in its stroke. If
+    two positions are equally hot, the first position is reported. The integration of the gas dynamics amplifies
+    rounding errors: up to 5e-9 in 200 draws, and up to 3e-8 in uncertainties and pulsations, which are differences. If
+    only the unit of length, mass or time changes, the errors are below 1e-9.
     """
     setup = random_setup(random, PumpingModel(slices=int(random.integers(10, 50))))
     inputs, units = PumpingInputs(setup, random_speed(random, setup)), other_units(random)
@@ -74,7 +83,10 @@ def test_pumping(random: Generator) -> None:
 
 @seeds(25, 1000)
 def test_load_distribution(random: Generator) -> None:
-    """The stiffness of ISO 6336-1 is a number for steel and falls below 100 N/mm, which have their own units."""
+    """All numbers of a load distribution scale with their units, except the stiffness of ISO 6336-1.
+
+    The formula of this stiffness contains the modulus of steel and a line load of 100 N/mm, both in fixed units.
+    """
     inputs, units = draw_flank(random), other_units(random)
     one, other = solve_load_distribution(inputs), solve_load_distribution(in_other_units(inputs, units))
     without = rf"{ABSOLUTE}|^stiffness\.standard_"
@@ -82,7 +94,10 @@ def test_load_distribution(random: Generator) -> None:
 
 
 def unit_in_other_units(inputs: DriveTrainInputs, units: Units) -> DriveTrainInputs:
-    """A gear unit in other units, with gravity, which is a factor."""
+    """Return a gear unit in other units.
+
+    The gravity factor is declared without a unit, but is scaled as an acceleration.
+    """
     converted = in_other_units(inputs, units)
     gravity = inputs.arrangement.gravity_factor * units.length / units.time**2
     return changed(converted, {"arrangement.gravity_factor": gravity})
@@ -95,7 +110,7 @@ def unit_systems(draw: st.DrawFn) -> Units:
 
 @examples(5, 200, units(), unit_systems())
 def test_drive_train(inputs: DriveTrainInputs, system: Units) -> None:
-    """The gap of shafts and mesh is settled to 1e-12 m."""
+    """The answers agree to 1e-6 only, because the iteration for the gap ends at an absolute residual of 1e-12 m."""
     one, other = solve_drive_train(inputs), solve_drive_train(unit_in_other_units(inputs, system))
     without = rf"{ABSOLUTE}|^convergence\.|^derived\."
     assert not differences(one, other, rescaled(system), without=without, tolerance=1e-6)

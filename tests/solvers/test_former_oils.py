@@ -1,4 +1,4 @@
-"""Programs that name an oil as in the minor version before still run."""
+"""Programs that describe an oil in the form of the previous minor version still run."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Compiled kernels are never stale, whoever edits what; a broken or missing cache costs time and nothing else."""
+"""Compiled kernels always match their source code; a broken or missing cache only costs time."""
 
 import os
 import shutil
@@ -32,7 +32,7 @@ def test_a_kernel_that_others_call_can_be_called_from_python_too() -> None:
 
 @pytest.fixture
 def package(tmp_path: Path) -> Path:
-    """A package of two kernels, one calling the other from another file."""
+    """Return the folder of a new package with two kernels in two files. The kernel `outer` calls the kernel `inner`."""
     folder = tmp_path / "solvers"
     folder.mkdir()
     for name in ("__init__.py", "compiled.py", "digest.py", "kernel_cache.py"):
@@ -46,7 +46,7 @@ def package(tmp_path: Path) -> Path:
 
 
 def run(package: Path, program: str, **variables: str) -> subprocess.CompletedProcess[str]:
-    """A program in a process of its own, with a cache of its own."""
+    """Run a program in a new process. The cache folder is beside the package."""
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     environment["NUMBA_CACHE_DIR"] = str(package.parent / "cache")
     command = [sys.executable, "-c", program]
@@ -56,7 +56,7 @@ def run(package: Path, program: str, **variables: str) -> subprocess.CompletedPr
 
 
 def outcome(package: Path, module: str = "solvers.outer", head: str = "", **variables: str) -> tuple[float, bool, str]:
-    """What the outer kernel answers, whether it came from the cache, and what was logged."""
+    """Return the result of the kernel `outer`, whether the kernel came from the cache, and the logged text."""
     result = run(package, head + PROGRAM.format(module=module), **variables)
     value, hits = result.stdout.split()
     return float(value), hits == "1", result.stderr
@@ -102,7 +102,7 @@ def test_prose_leaves_the_kernels_on_disk(package: Path) -> None:
 
 
 def folders(package: Path) -> list[Path]:
-    """The folders of kernels, the newest last."""
+    """Return the folders with compiled kernels, the newest folder last."""
     found = (package.parent / "cache" / "tribodrive").iterdir()
     return sorted((each for each in found if each.name != "digests"), key=lambda each: each.stat().st_mtime)
 

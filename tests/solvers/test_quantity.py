@@ -1,4 +1,4 @@
-"""Values in the units shown: as text, as a dictionary, and inside their ranges."""
+"""Quantities are shown in their units, as text and in dictionaries, and values outside their ranges are refused."""
 
 from collections.abc import Callable
 from functools import cache
@@ -80,7 +80,7 @@ def test_the_dictionary_of_a_result_is_the_service_s_answer(
 
 
 def compared(shown: Any, answer: Any) -> int:
-    """How many numbers under equal names were compared."""
+    """Compare the numbers that have equal names, and return how many numbers were compared."""
     if isinstance(shown, dict) and isinstance(answer, dict):
         return sum(compared(shown[key], answer[key]) for key in shown.keys() & answer.keys())
     if isinstance(shown, list) and isinstance(answer, list) and len(shown) == len(answer):

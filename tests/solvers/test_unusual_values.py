@@ -1,4 +1,4 @@
-"""Unusual values are warned of by the solvers themselves, not only by the service."""
+"""The solvers themselves, not only the service, warn of unusual values."""
 
 from dataclasses import replace
 

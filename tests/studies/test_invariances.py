@@ -1,4 +1,4 @@
-"""What must change nothing in a study: a tolerance without width, the order of cases, how their shares are written."""
+"""The order of cases, the order of inputs and load factors of 1 change nothing in a study; shares are weights."""
 
 from typing import Any
 
@@ -17,7 +17,7 @@ OUTPUTS = ["axial_thrust.coaxial_limit_n", "losses.friction_power_w", "load_dist
 
 
 def spectrum(**parts: Any) -> dict[str, Any]:
-    """The last line of a spectrum of a coupling."""
+    """Run a spectrum of a coupling, and return its last line."""
     body = study_of("pahl-axial-displacement", **{"outputs": OUTPUTS, **parts})
     return timeless(lines_of(Spectrum(body, 20_000, 30.0), InlinePool(1)))[-1]
 
@@ -58,7 +58,10 @@ def test_order_of_cases_does_not_matter(random: np.random.Generator) -> None:
 
 @seeds(3, 60)
 def test_shares_are_weights(random: np.random.Generator) -> None:
-    """They add up to 1, and means over the operating time are sums of what the cases have alone."""
+    """The shares of the cases add up to 1.
+
+    A mean over the operating time is the sum of the means of the single cases, each multiplied by its share.
+    """
     cases = draw_cases(random)
     end = spectrum(cases=cases)
     assert sum(case["share"] for case in end["cases"]) == pytest.approx(1.0, rel=1e-12)
@@ -73,7 +76,7 @@ def test_shares_are_weights(random: np.random.Generator) -> None:
 
 @seeds(3, 60)
 def test_a_factor_of_one_changes_nothing(random: np.random.Generator) -> None:
-    """Load factors of 1, in every combination, on a load distribution, and a case that sets what stands."""
+    """A load distribution does not change if one of its three load factors, or all three, are set to 1."""
     names = ["load.application_factor", "load.dynamic_factor", "load.mesh_load_factor"]
     torque = float(random.uniform(20, 800))
     plain = study_of("xue-pair-1-modified", outputs=["pressure.max_mpa", "transmission_error.peak_to_peak_um"])

@@ -1,4 +1,4 @@
-"""What a sweep asks for is checked before its first line, and every fault has its place and its code."""
+"""The body of a sweep is checked before the first line is sent; every error names the place of the fault and a code."""
 
 import copy
 import json
@@ -260,7 +260,7 @@ def test_what_holds_no_number_says_what_it_is(path: str, words: str) -> None:
 
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 def test_every_field_without_number_is_told_so(calculation: Calculation) -> None:
-    """Options, flags and texts of every endpoint; a field of a list that the example lacks is not there."""
+    """For every option and flag of every endpoint, the message says that the field is an option or a flag."""
     name = next(each.name for each in examples().values() if each.endpoint == calculation.path)
     for leaf in leaves(calculation.request):
         if leaf.is_scalar and (leaf.kind == "boolean" or leaf.options):

@@ -1,4 +1,4 @@
-"""Every point of a study is the endpoint's own answer, bit for bit."""
+"""Every point of a study equals the endpoint's own answer, bit for bit."""
 
 import json
 from typing import Any
@@ -31,7 +31,7 @@ LOADS = examples()["xue-pair-1-modified"]
 
 
 def scalars(endpoint: str) -> list[str]:
-    """Every single value of an answer that is sent at any level of detail."""
+    """Return the paths of the single values that an answer contains at every level of detail."""
     wanted = (leaf for leaf in leaves(BY_PATH[endpoint].response) if leaf.is_scalar and leaf.kind != "other")
     return [leaf.path for leaf in wanted if leaf.detail == "summary" and "*" not in leaf.path]
 

@@ -1,4 +1,4 @@
-"""Points come back in order whatever happens to the processes that solve them."""
+"""The points of a study come back in order, whatever happens to the processes that solve the points."""
 
 import asyncio
 from contextlib import aclosing
@@ -12,7 +12,7 @@ from tests.support.pools import QUESTION, ScriptedPool, at
 
 
 def solved(pool: ScriptedPool, total: int) -> list[tuple[int, Point]]:
-    """Every point with its index, as they come."""
+    """Return every point with its index, in the order in which the points arrive."""
 
     async def run() -> list[tuple[int, Point]]:
         found: list[tuple[int, Point]] = []

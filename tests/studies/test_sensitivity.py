@@ -1,4 +1,4 @@
-"""Sensitivities: against derivatives known from the physics, at the ends of ranges, at kinks."""
+"""Sensitivities agree with derivatives known from physics, use one side at the end of a range, and mark kinks."""
 
 from dataclasses import replace
 from typing import Any
@@ -18,12 +18,12 @@ COUPLING = examples()["pahl-axial-displacement"]
 UNIT = "starter-turbo-gear-drive-train"
 CLOSED_FORM = {"request.model": {"lubrication": "closed_form"}}
 INTEGRAL = CLOSED_FORM | {"request.pinion_shaft.sections.3.outer_diameter_mm": 238.8}
-"""The turbo gear whose pinion has its reference diameter, for which the numbers below were found."""
+"""The turbo gear whose pinion is as thick as its reference diameter, 238.8 mm. The slopes below hold for this gear."""
 FACE_LOAD_FACTOR = "load.face_load_factor"
 
 
 def sensitivities(example: str, changes: dict[str, Any] | None = None, **parts: Any) -> list[dict[str, Any]]:
-    """The lines of an example's sensitivities, the body changed at dotted paths."""
+    """Return the lines of a sensitivity study of an example. `changes` replaces values of the body at dotted paths."""
     return lines_of(Sensitivity(changed(study_of(example, **parts), changes or {}), 2500, 30.0))
 
 
@@ -52,7 +52,10 @@ def test_an_output_goes_with_its_known_power_of_an_input(
 
 
 def test_every_item_of_a_list_is_moved() -> None:
-    """While all teeth carry, errors common to all change nothing: the slopes add to nothing."""
+    """As long as all teeth carry load, an equal pitch error of all teeth changes nothing.
+
+    The slopes with respect to the errors of the single teeth therefore add up to zero.
+    """
     errors = [2.0, -1.0, 0.5, -0.5] * 13
     errors[7] = 3.0
     request = {
@@ -160,7 +163,7 @@ Moved = tuple[Perturbation, dict[float, float | None]]
 
 
 def moved(base: float | None, below: float | None, above: float | None, value: float = 10.0, **changes: Any) -> Moved:
-    """An input, and an output at it, below and above."""
+    """Return the perturbation of an input, and the outputs at its value, one step below and one step above."""
     found = perturbation(leaf(**{"tolerance": 1.0, **changes}), value)
     return found, {value - found.step: below, value: base, value + found.step: above}
 
@@ -220,7 +223,10 @@ def test_no_elasticity_at_zero_and_for_degrees() -> None:
 
 @pytest.fixture(scope="module")
 def turbo_unit() -> list[dict[str, Any]]:
-    """How two outputs of the turbo unit move with the lists that its request leaves to their defaults, and others."""
+    """Return the sensitivities of two outputs of the turbo unit.
+
+    Most of the moved inputs are offsets of bearings, which the request leaves at their defaults.
+    """
     inputs = [
         *(
             f"{shaft}_shaft.bearings.{k}.offset_um.{axis}"
@@ -244,7 +250,10 @@ def test_lists_left_to_their_defaults_are_moved(turbo_unit: list[dict[str, Any]]
 
 
 def test_bore_offsets_move_by_what_a_bore_is_off(turbo_unit: list[dict[str, Any]]) -> None:
-    """Single requests with the near pinion bore 1 um up and down: +0.00118 per um; 100 um: -0.00024."""
+    """The face load factor changes by +0.00118 per um of offset of the first pinion bore.
+
+    Two single requests, with offsets of 1 um up and down, gave this slope. Offsets of 100 um gave -0.00024 per um.
+    """
     (found,) = (
         line
         for line in turbo_unit
@@ -257,7 +266,10 @@ def test_bore_offsets_move_by_what_a_bore_is_off(turbo_unit: list[dict[str, Any]
 
 
 def test_a_step_that_is_too_large_says_so() -> None:
-    """The bore of the last test moved by 100 um: -0.00024 per um, and both sides differ."""
+    """If the first pinion bore is moved by 100 um, the slope is -0.00024 per um.
+
+    The slopes on both sides differ, and the study reports a kink.
+    """
     path = "pinion_shaft.bearings.0.offset_um"
     vary = [{"path": f"{path}.1", "values": [-100, -50, 0, 50, 100]}]
     body = changed(study_of(UNIT, vary=vary, outputs=[FACE_LOAD_FACTOR]), INTEGRAL)
@@ -271,7 +283,7 @@ def test_a_step_that_is_too_large_says_so() -> None:
 
 
 def test_a_change_of_regime_is_a_kink() -> None:
-    """Without misalignment one side ends; where pressure has its least value over the helix slope, both rise."""
+    """The face load factor has different derivatives below and above a helix slope of 0."""
     line, end = sensitivities("xue-pair-1", outputs=[FACE_LOAD_FACTOR], inputs=["modifications.helix_slope_um"])
     assert end["inputs"][0]["value"] == 0.0
     assert line["elasticity"] is None

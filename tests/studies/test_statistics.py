@@ -1,4 +1,4 @@
-"""Probabilities against laws that are known in closed form."""
+"""Estimated probabilities agree with laws that are known in closed form."""
 
 from dataclasses import replace
 from itertools import product
@@ -32,12 +32,12 @@ from tests.support.studies import fault_of, study_of
 
 
 def array(*cases: list[float]) -> np.ndarray:
-    """One replicate whose draws have these cases."""
+    """Return an array with one replicate. Each argument is one draw: a list of its outputs, one output per case."""
     return np.array([cases], dtype=float)
 
 
 def test_the_gaussian_law_of_agma_925() -> None:
-    """The worked answer RFI 16-1 to AGMA 925-A03: its inputs have six digits."""
+    """The probability agrees with the worked answer RFI 16-1 to AGMA 925-A03, whose inputs have six digits."""
     found = of_case(array([0.425354])[..., 0], Limit("below", 0.215956, 0.112623))
     assert pytest.approx(1.859273, abs=2e-5) == (0.425354 - 0.215956) / 0.112623
     assert found.probability == pytest.approx(norm.sf(1.859273), rel=1e-4)
@@ -64,7 +64,10 @@ def test_risk_in_words(probability: float, risk: str) -> None:
 
 
 def test_replicates_give_the_error() -> None:
-    """Means 1, 2, 3, 6: deviation sqrt(14/3); the 95 % quantile of t with 3 degrees of freedom is 2.3533634."""
+    """The replicates have the means 1, 2, 3 and 6, whose deviation is sqrt(14/3).
+
+    The 95 % quantile of t with 3 degrees of freedom is 2.3533634.
+    """
     found = mean_over_replicates(np.array([[0.0, 2.0], [1.0, 3.0], [3.0, 3.0], [5.0, 7.0]]))
     assert found.mean == 3.0
     assert found.standard_error == pytest.approx(sqrt(14 / 3) / 2)
@@ -72,14 +75,21 @@ def test_replicates_give_the_error() -> None:
 
 
 def test_no_event_has_a_one_sided_bound() -> None:
-    """All of 1024 machines keep the limit: 1 - 0.1^(1/1024) = 0.22461 %; 0.9978 where all exceed it."""
+    """If none of 1024 machines exceeds the limit, the upper bound of the probability is 1 - 0.1^(1/1024) = 0.22461 %.
+
+    If all machines exceed the limit, the lower bound is 0.9978.
+    """
     outputs = np.zeros((8, 128, 1))
     assert of_spectrum(outputs, Limit("above", 1.0, 0.0)).interval == pytest.approx((0.0, 0.0022460921))
     assert of_spectrum(outputs, Limit("above", -1.0, 0.0)).interval == pytest.approx((1.0 - 0.0022460921, 1.0))
 
 
 def test_few_events_have_the_interval_of_their_count() -> None:
-    """5 of 1024, and 3 in each of 8 replicates: Clopper and Pearson's limits, by the sums of binomial probabilities."""
+    """The interval of few events has the limits of Clopper and Pearson.
+
+    The examples are 5 events in 1024 draws, and 3 events in each of 8 replicates. Sums of binomial probabilities check
+    the limits.
+    """
     few = np.zeros((8, 128))
     few[:5, 0] = 1.0
     equal = np.zeros((8, 128))
@@ -97,7 +107,10 @@ def test_few_events_have_the_interval_of_their_count() -> None:
 
 
 def test_an_unsolved_draw_is_never_lost() -> None:
-    """Of eight machines two exceed the limit, one has no solution in a case: 2/8 if it is good, 3/8 if it is bad."""
+    """Two of eight machines exceed the limit, and a third machine has no solution in one case.
+
+    The probability is 2/8 if the third machine is good, and 3/8 if it is bad.
+    """
     outputs = np.array(
         [[[1.0, 0.0], [0.0, np.nan], [0.0, 0.0], [0.0, 0.0]], [[1.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0]]]
     )
@@ -111,7 +124,7 @@ def test_an_unsolved_draw_is_never_lost() -> None:
 
 
 def test_what_is_solved_of_a_machine_counts() -> None:
-    """A machine that exceeds the limit in one case is bad whatever its unsolved case does."""
+    """A machine that exceeds the limit in one case is bad, whatever the result of its unsolved case would be."""
     found = of_spectrum(array([1.0, np.nan], [0.0, 0.0]), Limit("above", 0.5, 0.0))
     assert found.bounds == (0.5, 0.5)
     assert found.probability == 0.5
@@ -120,7 +133,10 @@ def test_what_is_solved_of_a_machine_counts() -> None:
 
 
 def test_cases_that_move_oppositely() -> None:
-    """One input makes a case better and the other worse: the machine is bad if either is, never both at once."""
+    """One input makes one case better and the other case worse.
+
+    A machine is bad if one of its cases is bad; both cases are hardly ever bad at once.
+    """
     x = norm.ppf((np.arange(4096) + 0.5) / 4096).reshape(1, -1)
     outputs, limit = np.stack([x, -x], axis=-1), Limit("above", 1.5, 0.4)
     one, other = (of_case(outputs[..., case], limit).probability for case in (0, 1))
@@ -165,7 +181,7 @@ def test_small_statistics() -> None:
 
 
 class TestDistributions:
-    """Quantiles of the laws, and where they are cut."""
+    """The distributions have the quantiles of their laws, and are cut off at the intended values."""
 
     def value(self, scatter: Range, share: float, leaf: Leaf = FRICTION) -> float:
         return float(drawn([scatter], [leaf], np.array([[share]]))[0, 0])
@@ -178,7 +194,10 @@ class TestDistributions:
         assert cut(scatter, FRICTION).cut_off == pytest.approx(6.334248e-5)
 
     def test_cut_at_the_end_of_the_field(self) -> None:
-        """Friction is not negative: what lies below zero, a tenth of the distribution, is cut off."""
+        """The range of friction is 0 to 2.
+
+        The parts of the distribution below 0, which is a tenth, and above 2 are cut off.
+        """
         scatter = Normal(path="x", distribution="normal", mean=1.281551566, deviation=1.0)
         assert 0.0 <= self.value(scatter, 0.0) < 1e-8
         assert cut(scatter, FRICTION).cut_off == pytest.approx(0.1 + norm.sf(2.0 - 1.281551566))
@@ -202,7 +221,10 @@ class TestDistributions:
 
     @pytest.mark.parametrize("deviation", [1e-300, 1e-3, 1.0, 1e6, 1e8, 1e10, 1e300])
     def test_values_have_six_digits_or_are_refused(self, deviation: float) -> None:
-        """A wide normal distribution is even inside a narrow range; what its shares cannot tell apart is refused."""
+        """Inside a narrow range, a wide normal distribution is nearly uniform.
+
+        The study refuses a distribution that is so wide that rounding would spoil the values inside the range.
+        """
         scatter = {"path": "friction.coefficient", "distribution": "normal", "mean": 0.2, "deviation": deviation}
         body = study_of("pahl-axial-displacement", sample={"count": 4096, "seed": 3, "inputs": [scatter]})
         if deviation > 1e8:
@@ -239,15 +261,19 @@ class TestDistributions:
 
 
 COVERED: dict[Method, tuple[float, float]] = {"sobol": (0.80, 0.96), "latin_hypercube": (0.85, 0.95)}
-"""Bounds of the coverage over 400 seeds at limits 0.5, 1, 1.5, 2 and 2.5 deviations from the mean, fixed beforehand."""
+"""Least and largest permissible share of 400 seeds whose interval holds the truth, as set before the first run.
+
+The shares apply at limits 0.5, 1, 1.5, 2 and 2.5 deviations from the mean.
+"""
 
 
 def test_what_400_seeds_can_tell() -> None:
-    """The count of intervals that hold the truth is binomial: 90 % of 400 are known to 1.5 % (one deviation).
+    """The number of intervals that hold the truth is binomial: 400 seeds measure 90 % to 1.5 % (one deviation).
 
-    Latin hypercubes: at one limit a true coverage of 90 % leaves 85 to 95 % in 0.07 % of all tests, and one of 80 %
-    stays inside in 0.6 %. Means of Sobol points of one tolerance are skewed: if 85 % are covered, 80 % are missed in
-    0.3 %.
+    For Latin hypercubes the bounds are 85 and 95 %. At one limit, a true coverage of 90 % gives a share outside these
+    bounds in 0.07 % of all tests, and a true coverage of 80 % gives a share inside in 0.6 %. For Sobol points of one
+    tolerance the lower bound is 80 %, because their means are skewed. A true coverage of 85 % gives a share below this
+    bound in 0.3 % of all tests.
     """
     outside = binom.cdf(0.85 * 400 - 1, 400, 0.90) + binom.sf(0.95 * 400, 400, 0.90)
     assert outside == pytest.approx(7.3e-4, rel=0.01)
@@ -259,9 +285,11 @@ def test_what_400_seeds_can_tell() -> None:
 @pytest.mark.parametrize("tolerances", [1, 6])
 @pytest.mark.parametrize("method", COVERED)
 def test_the_interval_covers_the_truth(method: Method, tolerances: int) -> None:
-    """A linear output of normal inputs against a normal limit: P = Phi((mu - m) / sqrt(s_y^2 + s^2)).
+    """The intervals hold the true probability that a linear output of normal inputs exceeds a normal limit.
 
-    At 0.13 % the means of the replicates are skewed, and 90 % intervals cover 75 to 82 %, which the study says.
+    The true probability is P = Phi((mu - m) / sqrt(s_y^2 + s^2)). At a probability of 0.13 % the means of the
+    replicates are skewed. The 90 % intervals then hold the truth in only 75 to 82 % of all studies. A note of the study
+    says so.
     """
     least, most = COVERED[method]
     *usual, rare = coverage(method, tolerances, 0.5).values()
@@ -274,7 +302,7 @@ def test_the_interval_covers_the_truth(method: Method, tolerances: int) -> None:
 @pytest.mark.parametrize("method", COVERED)
 @pytest.mark.parametrize("confidence", [0.8, 0.98])
 def test_a_wrong_interval_is_noticed(monkeypatch: pytest.MonkeyPatch, method: Method, confidence: float) -> None:
-    """Intervals of 80 or 98 % in place of 90 % leave the bounds."""
+    """If the intervals have a confidence of 80 or 98 % instead of 90 %, their coverage leaves the bounds."""
     monkeypatch.setattr("app.studies.statistics.CONFIDENCE", confidence)
     least, most = COVERED[method]
     *usual, _ = coverage(method, 6, 0.5).values()
@@ -285,6 +313,10 @@ def test_a_wrong_interval_is_noticed(monkeypatch: pytest.MonkeyPatch, method: Me
 @pytest.mark.parametrize("tolerances", [1, 6])
 @pytest.mark.parametrize("method", ["sobol", "latin_hypercube"])
 def test_the_interval_of_a_fixed_limit_covers_the_truth(method: Method, tolerances: int) -> None:
-    """One tolerance is stratified: at 2.3 % half of the studies count 3 of 128 in every replicate, without scatter."""
+    """At least 85 % of the intervals hold the truth, even if the replicates do not scatter.
+
+    The draws of one tolerance are stratified. At a probability of 2.3 %, half of the studies therefore count 3 of 128
+    draws in every replicate.
+    """
     for each in coverage(method, tolerances, 0.0).values():
         assert each.covered >= 0.85, each

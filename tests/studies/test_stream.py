@@ -1,4 +1,4 @@
-"""A stream says how it goes on and how it ended."""
+"""The stream of a study reports progress while no line comes, and an early end in its last line."""
 
 import asyncio
 from collections.abc import AsyncGenerator
@@ -13,7 +13,7 @@ from app.studies.runner import Clock, Line, PoolLost, guarded
 
 
 def lines_of(*steps: float | Exception, progress_s: float = 2.0) -> list[Line]:
-    """What a study sends that waits these times between its lines, or breaks."""
+    """Return the lines of a study. `steps` holds the times [s] before the lines, and exceptions to raise."""
     closed = []
 
     async def study() -> AsyncGenerator[list[Line], None]:

@@ -1,4 +1,4 @@
-"""What a sweep says: header, points, ranges, statistics, the best point; as lines and as a table."""
+"""A sweep sends a header, points, ranges, statistics and the best point, either as lines or as a table."""
 
 import csv
 import io
@@ -26,7 +26,7 @@ def body(**parts: Any) -> dict[str, Any]:
 
 
 def swept(slots: int = 1, **parts: Any) -> list[dict[str, Any]]:
-    """The lines of a sweep over a coupling."""
+    """Return the lines of a sweep over a coupling."""
     return timeless(lines_of(Sweep(body(**parts), 2500, 30.0), InlinePool(slots)))
 
 
@@ -98,7 +98,7 @@ def test_an_assumed_value_that_differs_between_points_is_null() -> None:
 
 
 def summary(rows: list[list[Any]], **best: Any) -> Summary:
-    """What the end of a sweep says of points with these outputs x, y, z."""
+    """Return the summary of a sweep. Each row holds the outputs x, y and z of one point."""
     received = Summary(["x", "y", "z"], Best.model_validate(best) if best else None)
     for row in rows:
         received.add(Point("ok", row, []))

@@ -1,7 +1,7 @@
-"""Whole answers side by side: every declared number of one against every declared number of another.
+"""Two whole answers are compared: every declared number of one answer with the same number of the other answer.
 
-A test of a symmetry that picks its numbers overlooks those it does not pick. Here a symmetry says what becomes of a
-number by its name and unit, and every number of the answer is held to it.
+A test of a symmetry that compares only selected numbers overlooks the other numbers. Here a symmetry states how a
+number changes, depending on its name and unit, and every number of the answer is checked.
 """
 
 import re
@@ -18,7 +18,7 @@ TOLERANCE = 1e-9
 
 
 class Leaf(NamedTuple):
-    """Values under one name: numbers with their unit and their scale, or a word."""
+    """The values under one name of an answer: numbers with a unit and a scale, or a word."""
 
     values: FloatArray | str
     unit: str | None
@@ -26,19 +26,19 @@ class Leaf(NamedTuple):
 
 
 Expected = Callable[[str, FloatArray, str | None], FloatArray]
-"""What becomes of the numbers of this name and unit."""
+"""A function that returns the expected numbers of the other answer. Its arguments are name, numbers and unit."""
 
 
 def unchanged(_: str, values: FloatArray, __: str | None) -> FloatArray:
-    """Every number stays."""
     return values
 
 
 def leaves(answer: Any) -> dict[str, Leaf]:
-    """Every declared value of an answer by its dotted name.
+    """Return every declared value of an answer. The keys are the dotted names of the values.
 
-    The scale of a number is the largest of its unit in its part of the answer, for a difference of large numbers is no
-    better than these; that of a number without unit is 1 at least, the size of a share.
+    The scale of a number is the largest absolute value with the same unit in the same part of the answer, because a
+    difference of large numbers is no more exact than these numbers. The scale of a number without a unit is at least 1,
+    the size of a share.
     """
     found: dict[str, Leaf] = {}
     _walk(answer, "", None, found)
@@ -63,9 +63,10 @@ def differences(
     without: str = "^$",
     loose: dict[str, float] | None = None,
 ) -> list[str]:
-    """Name every value of the other answer that is not what is expected of the one's.
+    """Return a text for every value of `other` that differs from the value that is expected from `one`.
 
-    Values whose name matches `without` are left out; those that match a key of `loose` have a tolerance of their own.
+    Values whose name matches `without` are left out. If a name matches a key of `loose`, its tolerance is the value at
+    this key.
     """
     before, after = leaves(one), leaves(other)
     names = [name for name in before if not re.search(without, name)]
@@ -105,7 +106,7 @@ def _difference(name: str, one: Leaf, other: Leaf, expected: Expected, tolerance
 
 
 def _factor(wanted: FloatArray, given: FloatArray) -> float:
-    """By how much an expectation scales the largest value."""
+    """Return the largest wanted value divided by the largest given value, or 1 if all given values are zero."""
     before, after = _largest(given), _largest(wanted)
     return after / before if before > 0.0 else 1.0
 

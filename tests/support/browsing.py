@@ -1,4 +1,4 @@
-"""What tests in a browser share: addresses of examples, sideways scrolling, the accessibility checker."""
+"""The browser tests share these helpers for addresses, sideways scrolling, delayed scripts and accessibility."""
 
 from collections.abc import Callable
 
@@ -14,13 +14,13 @@ DESK = {"width": 1400, "height": 900}
 
 
 def address_of(name: str, view: str = "") -> str:
-    """The page of an example, or another view of it ("/report")."""
+    """Return the address of the page of an example, or the address of another view of the page, such as "/report"."""
     example = examples()[name]
     return example_link(BY_PATH[example.endpoint], example).replace("?", f"{view}?", 1)
 
 
 def overflow(page: Page) -> int:
-    """By how much a page is wider than its window."""
+    """Return by how many pixels a page is wider than its window."""
     width: int = page.evaluate("document.scrollingElement.scrollWidth - window.innerWidth")
     return width
 
@@ -39,6 +39,6 @@ def hold_scripts(page: Page) -> Callable[[], None]:
 
 
 def violations(page: Page) -> list[tuple[str, str]]:
-    """What the accessibility checker finds, however slight."""
+    """Return all violations that the accessibility checker reports: the rule and the HTML of the first element."""
     found = Axe().run(page).response["violations"]
     return [(each["id"], each["nodes"][0]["html"]) for each in found]

@@ -1,4 +1,4 @@
-"""A folder with all compiled kernels. Tests copy the folder and damage the copy."""
+"""Tests copy a folder with all compiled kernels, and damage the copy."""
 
 import shutil
 from functools import cache
@@ -10,14 +10,14 @@ from tests.support.server import running_server
 
 @cache
 def complete_cache() -> Path:
-    """The folder in which a start has left every kernel."""
+    """Start the service, wait until all kernels are compiled, and return the folder of the kernels."""
     with running_server(log_level="error"):
         assert FOLDER is not None
     return FOLDER
 
 
 def copy_of_cache(base: Path) -> Path:
-    """The kernels of today's sources in a base of one's own."""
+    """Copy the kernels of the current source code into a cache below `base`, and return the folder of the copy."""
     folder = base / "tribodrive" / complete_cache().name
     shutil.copytree(complete_cache(), folder)
     return folder

@@ -1,4 +1,4 @@
-"""Inputs with other values at dotted names."""
+"""Read and change values of nested inputs by their dotted names."""
 
 from collections.abc import Mapping
 from dataclasses import replace
@@ -8,19 +8,19 @@ Inputs = TypeVar("Inputs")
 
 
 def changed(inputs: Inputs, values: Mapping[str, Any]) -> Inputs:
-    """The inputs with other values at dotted names ("couplings.0.friction.coefficient")."""
+    """Return the inputs with new values. The keys are dotted names, such as "couplings.0.friction.coefficient"."""
     for name, value in values.items():
         inputs = _replaced(inputs, name.split("."), value)
     return inputs
 
 
 def scaled(inputs: Inputs, factor: float, *names: str) -> Inputs:
-    """The inputs with the values at some names multiplied by a factor."""
+    """Return the inputs with the values at the dotted names multiplied by `factor`."""
     return changed(inputs, {name: factor * value_at(inputs, name) for name in names})
 
 
 def value_at(thing: Any, name: str) -> Any:
-    """The value at a dotted name."""
+    """Return the value at a dotted name. Numbers in the name are indices of tuples."""
     for step in name.split("."):
         thing = thing[int(step)] if isinstance(thing, tuple) else getattr(thing, step)
     return thing

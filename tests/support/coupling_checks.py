@@ -1,6 +1,7 @@
-"""Random couplings of the kind users have, and what must hold for each: drawn by the tests and by the long search.
+"""Check what must hold for every gear coupling, on random couplings like those of users.
 
-Every check takes a generator, draws one case and raises AssertionError with the case where it does not hold.
+The tests and `benchmarks/search.py` run these checks. Every check in `CHECKS` draws one case from a random generator.
+If the check fails, it raises AssertionError with the case.
 """
 
 from collections.abc import Callable
@@ -24,9 +25,11 @@ from tests.support.couplings import random_inputs
 
 
 def numbers(result: CouplingResult) -> dict[str, tuple[float, float]]:
-    """Every summary number by its name, with the scale against which it counts (0: its own size).
+    """Return each summary number and the scale of its permissible changes. The keys are the names of the numbers.
 
-    Thrust and moments are differences of much larger forces: they count against what friction could hold.
+    If the scale is 0, changes are compared with the number itself. Thrust and moments are differences of much larger
+    forces. Their scale is therefore the largest thrust or moment that friction could hold. The scale of the smallest
+    tooth force is the mean tooth force.
     """
     limit = result.axial_thrust.coaxial_limit
     moment = limit * result.geometry.pitch_radius
@@ -54,7 +57,12 @@ def numbers(result: CouplingResult) -> dict[str, tuple[float, float]]:
 
 
 def check_power_and_moments(random: Generator) -> None:
-    """Friction power is what moment and thrust do; hub and sleeve books of moments close tooth by tooth."""
+    """Check the friction power, the bending moment on the hub, the torque, and the lateral force on the sleeve.
+
+    The friction power is the power of the friction moment plus the power of the thrust. If the kinematics are
+    tangential, the bending moment follows from its two components. The tooth forces together transmit the torque. The
+    lateral forces of the teeth on a floating sleeve cancel.
+    """
     inputs = random_inputs(random)
     alone = changed(inputs, {"operation.arrangement": "single"})
     result, operation = solve(alone), inputs.operation
@@ -76,7 +84,7 @@ def check_power_and_moments(random: Generator) -> None:
 
 
 def finer(module: ModuleType, factor: int, *names: str) -> AbstractContextManager[object]:
-    """Counts of a module multiplied: resolutions that no input sets."""
+    """Return a patch that multiplies constants of a module; these constants are resolutions that no input sets."""
     return patch.multiple(module, **{name: factor * getattr(module, name) for name in names})
 
 
@@ -85,11 +93,12 @@ def check_resolution(random: Generator) -> None:
 
 
 def check_resolution_of(inputs: CouplingInputs) -> None:
-    """No summary number moves by 1 % with every resolution doubled.
+    """Check that no summary number changes by more than 1 % if every resolution is doubled.
 
-    Thrust and moments are what is left of friction forces that cancel. Where teeth load and unload the quadrature
-    leaves up to 6e-5 of what friction could hold (2600 random couplings), however little is left. Besides the 1 % they
-    may move by 1e-4 of that limit: 1 % of a thrust of a hundredth of the limit, below which it is an absolute error.
+    Thrust and moments are small sums of friction forces that nearly cancel. If teeth come under load and lift off, the
+    quadrature has an error of up to 6e-5 of the largest thrust or moment that friction could hold. This value comes
+    from 2600 random couplings; the error does not shrink with the thrust. Thrust and moments may therefore change by
+    1 % plus 1e-4 of this limit.
     """
     before = numbers(solve(inputs))
     with finer(kinematics, 2, "_PITCH_NODES", "_LEAST_ROTOR_POSITIONS"):
@@ -103,7 +112,11 @@ def check_orbit_resolution(random: Generator) -> None:
 
 
 def check_orbit_resolution_of(inputs: CouplingInputs) -> None:
-    """Twice the rotor angles move an orbit's summary by less than 1 %, or by what it states, or with a notice."""
+    """Check that twice as many rotor angles hardly change the orbit of the sleeve.
+
+    The largest displacement may change by 1 %, and a harmonic of the inertia force by 2 % of the largest harmonic. An
+    orbit that is not solved, or that has the notice `orbit_resolution`, is not checked.
+    """
     try:
         before = solve_orbit(inputs)
         with finer(kinematics, 2, "_LEAST_ROTOR_POSITIONS"):
@@ -122,7 +135,7 @@ def check_orbit_resolution_of(inputs: CouplingInputs) -> None:
 
 
 def check_recommendation_resolution(random: Generator) -> None:
-    """Twice the crowning ratios tried find no better one, and the same verdict."""
+    """Check that twice as many crowning ratios give the same verdict, and the same load capacity within 1 %."""
     inputs = random_inputs(random)
     low = abs(inputs.operation.misalignment)
     wanted = RecommendationInputs(inputs, low, low * random.uniform(1.0, 3.0))
@@ -146,11 +159,17 @@ SCANNED = {
 }
 HALVINGS = 16  # the narrowest ramp seen, of a tooth that lifts off, is 1/250 of a scan's step
 EDGE = ("lubrication.", "axial_thrust.", "losses.", "self_induced.")
-"""What depends on the oil film, which ends where the contact leaves the tooth, unless the inlet shrinks to that."""
+"""Names of numbers that depend on the oil film begin with one of these texts.
+
+If the contact leaves the tooth, the film ends. These numbers then jump, unless the oil inlet has shrunk to zero.
+"""
 
 
 def varied(inputs: CouplingInputs, group: str, name: str, factor: float) -> CouplingInputs:
-    """The inputs with one of them changed: by a factor, the pitch deviations too; the rotor angle by it in radians."""
+    """Return the inputs with one of them multiplied by `factor`.
+
+    Every pitch deviation is multiplied by `factor`. The rotor angle is set to `factor` in radians.
+    """
     value = getattr(getattr(inputs, group), name)
     if name == "pitch_errors":
         value = tuple(factor * error for error in value)
@@ -160,9 +179,11 @@ def varied(inputs: CouplingInputs, group: str, name: str, factor: float) -> Coup
 
 
 def check_no_jump(random: Generator) -> None:
-    """Scan one input: where a number changes ten times as fast as around, its change shrinks with the step.
+    """Check that no number jumps while one input is changed in small steps.
 
-    The one jump with a cause: the film of a contact that leaves the tooth, with an inlet that does not shrink to zero.
+    A change is suspicious if it is more than ten times as large as the changes at the neighbouring steps. Such a change
+    must shrink to less than a tenth if the step is halved many times. Only numbers that depend on the oil film may
+    jump, and only if the contact leaves the tooth.
     """
     inputs = random_inputs(random)
     choices = [(group, name) for group, names in SCANNED.items() for name in names]
@@ -177,7 +198,7 @@ def check_no_jump(random: Generator) -> None:
         factors = factors[factors * inputs.coupling.pressure_angle < 0.78]
 
     def at(factor: float) -> tuple[dict[str, tuple[float, float]], bool]:
-        """Every number, and whether the contact stays on the tooth."""
+        """Return every number, and True if the contact stays on the tooth."""
         point = varied(inputs, group, name, factor)
         result = solve(point)
         return numbers(result), result.kinematics.max_contact_travel < point.coupling.face_width / 2.0
@@ -198,7 +219,10 @@ def check_no_jump(random: Generator) -> None:
 def narrowed(
     at: Callable[[float], tuple[dict[str, tuple[float, float]], bool]], key: str, interval: tuple[float, float]
 ) -> float | None:
-    """What is left of the change over an interval when it is halved often, None where the film has a cause."""
+    """Halve the interval many times, keep the half with the larger change, and return the change in the last half.
+
+    Return None if the contact leaves the tooth in this last half, and the number depends on the oil film.
+    """
     low, high = interval
     (at_low, on_low), (at_high, on_high) = at(low), at(high)
     for _ in range(HALVINGS):

@@ -1,4 +1,4 @@
-"""Pitch errors of the coupling of Pahl's figures, floating sleeves, and random couplings of the kind users have."""
+"""Draw pitch deviations and random couplings like those of users, and compute the loads on a floating sleeve."""
 
 from math import pi, radians
 
@@ -13,7 +13,10 @@ from solvers.published.pahl import TEETH
 
 
 def random_pitch_errors(seed: int, rms: float = 2e-6) -> tuple[float, ...]:
-    """Normally distributed pitch deviations [m] of exactly this rms, mean zero."""
+    """Draw normally distributed pitch deviations [m] with the mean zero and exactly the root mean square `rms`.
+
+    There is one deviation for each of the teeth of the coupling in Pahl's figures.
+    """
     errors = np.random.default_rng(seed).normal(size=TEETH)
     errors -= errors.mean()
     return tuple(errors * rms / np.sqrt(np.mean(errors**2)))
@@ -22,7 +25,10 @@ def random_pitch_errors(seed: int, rms: float = 2e-6) -> tuple[float, ...]:
 def floating(
     inputs: CouplingInputs, angles: float | FloatArray, force: tuple[float, float] | FloatArray
 ) -> tuple[ToothLoads, FloatArray]:
-    """Loads on a floating sleeve at rotor angles under external forces, and the teeth's lateral force (angles, 2)."""
+    """Return the tooth loads with a floating sleeve, and the lateral force of the teeth on the sleeve (angles, 2) [N].
+
+    The tooth loads belong to the rotor angles [rad]. `force` is the external force (x, y) on the sleeve [N].
+    """
     coupling, angles = inputs.coupling, np.atleast_1d(angles)
     mesh = mesh_motion(coupling, tooth_geometry(coupling), inputs.operation, inputs.model.kinematics)
     teeth = tooth_positions(angles, coupling.teeth)
@@ -32,12 +38,15 @@ def floating(
 
 
 def spread(random: Generator, low: float, high: float) -> float:
-    """A number between two bounds, every order of magnitude alike."""
+    """Draw a number between two bounds. The logarithm of the number is uniformly distributed."""
     return float(np.exp(random.uniform(np.log(low), np.log(high))))
 
 
 def random_coupling(random: Generator, *, errors: bool | None = None) -> Coupling:
-    """A gear coupling as they are built, with or without pitch deviations (None: either)."""
+    """Draw a gear coupling with usual proportions.
+
+    `errors` says whether the coupling has pitch deviations. If `errors` is None, two of five couplings have them.
+    """
     teeth, module = int(random.integers(20, 90)), float(random.choice([1.0, 2.0, 2.5, 3.0, 4.0, 5.0, 8.0]) * 1e-3)
     pitch_errors = None
     if random.random() < 0.4 if errors is None else errors:
@@ -57,7 +66,10 @@ def random_coupling(random: Generator, *, errors: bool | None = None) -> Couplin
 
 
 def random_inputs(random: Generator, *, errors: bool | None = None, single: bool = False) -> CouplingInputs:
-    """A gear coupling at work: mean tooth pressures of 0.5 to 30 N/mm2, rim speeds of 1 to 150 m/s."""
+    """Draw a gear coupling and an operating point.
+
+    The mean tooth pressure is 0.5 to 30 N/mm2, and the speed at the pitch circle is 1 to 150 m/s.
+    """
     coupling = random_coupling(random, errors=errors)
     radius = coupling.module * coupling.teeth / 2.0
     mean_force = spread(random, 0.5e6, 30e6) * coupling.tooth_height * coupling.face_width

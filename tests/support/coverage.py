@@ -1,4 +1,7 @@
-"""How often intervals of probabilities cover the truth: a machine whose output is the sum of normal tolerances."""
+"""Count how often the confidence interval of a probability contains the true probability.
+
+The output of the simulated machine is the sum of its normally distributed tolerances.
+"""
 
 from functools import cache
 from typing import NamedTuple
@@ -15,11 +18,18 @@ from solvers.arrays import FloatArray
 
 FRICTION = next(leaf for leaf in leaves(BY_PATH["/v1/coupling"].request) if leaf.path == "friction.coefficient")
 DISTANCES = (0.5, 1.0, 1.5, 2.0, 2.5, 3.0)
-"""From the mean output to the limit, in deviations of both together: 31, 16, 6.7, 2.3, 0.62 and 0.13 %."""
+"""Each number is the distance from the mean output to the mean limit, in standard deviations of their difference.
+
+The output is beyond a limit at these distances with probabilities of 31, 16, 6.7, 2.3, 0.62 and 0.13 %.
+"""
 
 
 class Coverage(NamedTuple):
-    """The probability, the deviation of its estimates over itself, and the share of 90 % intervals that hold it."""
+    """`truth` is the true probability that the output is beyond the limit.
+
+    `error` is the standard deviation of the estimated probabilities, divided by `truth`. `covered` is the share of
+    90 % intervals that contain `truth`.
+    """
 
     truth: float
     error: float
@@ -28,7 +38,10 @@ class Coverage(NamedTuple):
 
 @cache
 def outputs_of(method: Method, tolerances: int, count: int, replicates: int, studies: int) -> list[FloatArray]:
-    """The outputs of every replicate of studies with seeds from 0, in their deviations."""
+    """Return the outputs (replicates, draws) of each of the studies. The seeds of the studies count from 0.
+
+    The outputs are deviations from the mean output, divided by the standard deviation of the output.
+    """
     scatter = [Normal(path=str(each), distribution="normal", mean=1.0, deviation=0.1) for each in range(tolerances)]
     found = []
     for seed in range(studies):
@@ -42,7 +55,11 @@ def outputs_of(method: Method, tolerances: int, count: int, replicates: int, stu
 def coverage(
     method: Method, tolerances: int, deviation: float, *, count: int = 128, replicates: int = 8, studies: int = 400
 ) -> dict[float, Coverage]:
-    """By distance of the limit, whose deviation is given in those of the output; zero is a fixed limit."""
+    """Return how often the interval contains the true probability, for each distance of the limit.
+
+    `deviation` is the standard deviation of the limit, divided by the standard deviation of the output. If `deviation`
+    is zero, the limit is fixed.
+    """
     estimates: dict[float, list[float]] = {distance: [] for distance in DISTANCES}
     covered = dict.fromkeys(DISTANCES, 0)
     for outputs in outputs_of(method, tolerances, count, replicates, studies):

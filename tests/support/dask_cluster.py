@@ -1,4 +1,4 @@
-"""A Dask cluster of processes on this machine."""
+"""Run a Dask cluster whose scheduler and workers are processes on this machine."""
 
 import os
 import subprocess
@@ -36,7 +36,7 @@ def _process(*arguments: str, root: Path = ROOT) -> Iterator[subprocess.Popen[by
 
 
 class DaskProcesses:
-    """The scheduler, its address, and the workers."""
+    """This object holds a Dask scheduler process, the address of the scheduler, and the worker processes."""
 
     def __init__(self, stack: ExitStack) -> None:
         port = free_port()
@@ -47,14 +47,17 @@ class DaskProcesses:
         self.workers: list[subprocess.Popen[bytes]] = []
 
     def add_worker(self, root: Path = ROOT) -> None:
-        """One more worker process of one thread with the sources in `root`, without a nanny to start it again."""
+        """Start one more worker process, which has one thread and uses the sources in `root`.
+
+        No nanny process restarts this worker.
+        """
         options = ("--nthreads", "1", "--no-nanny", "--no-dashboard", "--host", "127.0.0.1", "--death-timeout", "60")
         self.workers.append(
             self._stack.enter_context(_process("distributed.cli.dask_worker", self.address, *options, root=root))
         )
 
     def wait(self) -> None:
-        """Until every worker is there."""
+        """Wait until every worker is connected to the scheduler. Raise RuntimeError if the cluster does not start."""
         end = time.monotonic() + START_S
         while True:
             with suppress(OSError, TimeoutError), Client(self.address, timeout=5, set_as_default=False) as client:
@@ -67,7 +70,7 @@ class DaskProcesses:
 
 @contextmanager
 def running_cluster(workers: int) -> Iterator[DaskProcesses]:
-    """A scheduler and workers in processes of their own."""
+    """Start a scheduler and workers, each in a process of its own, and end the processes on exit."""
     with ExitStack() as stack:
         cluster = DaskProcesses(stack)
         for _ in range(workers):

@@ -1,4 +1,7 @@
-"""The same thing in other units of length, mass and time: every number by its declared unit, so must every answer."""
+"""Convert inputs into other units of length, mass and time, and compute the results to expect.
+
+The unit that is declared for a number decides how the number is converted.
+"""
 
 from dataclasses import fields, is_dataclass, replace
 from typing import Any, NamedTuple, TypeVar
@@ -12,7 +15,7 @@ Inputs = TypeVar("Inputs")
 
 
 class Units(NamedTuple):
-    """How many times larger numbers become in length, mass and time; temperatures stay kelvins."""
+    """Lengths, masses and times are multiplied by these factors. Temperatures remain in kelvins."""
 
     length: float
     mass: float
@@ -66,13 +69,13 @@ DIMENSIONS: dict[str | None, tuple[float, float, float]] = {
 
 
 def factor(units: Units, unit: str | None) -> float:
-    """By what a number of a unit is multiplied."""
+    """Return the factor by which a number with the unit `unit` is multiplied."""
     length, mass, time = DIMENSIONS[unit]
     return float(units.length**length * units.mass**mass * units.time**time)
 
 
 def in_other_units(inputs: Inputs, units: Units) -> Inputs:
-    """The same inputs, every declared number of them and of their parts in other units."""
+    """Return the same inputs in other units. Every declared number is converted, also in nested inputs."""
     kind: Any = type(inputs)
     declared = quantities(kind)
     values = {}
@@ -96,7 +99,7 @@ def _converted(value: Any, unit: str | None, units: Units) -> Any:
 
 
 def rescaled(units: Units) -> Any:
-    """What becomes of every number of an answer."""
+    """Return a function that converts the numbers of a result into other units."""
 
     def expected(_: str, values: FloatArray, unit: str | None) -> FloatArray:
         return np.asarray(values * factor(units, unit))

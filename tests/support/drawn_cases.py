@@ -1,4 +1,4 @@
-"""Cases drawn from the examples for tests of figures: a few numbers far from the usual, all of them legal."""
+"""Draw valid cases for tests of figures: examples in which a few numbers are replaced by unusual numbers."""
 
 import random
 from collections.abc import Iterator
@@ -21,7 +21,10 @@ TRIALS = 60
 
 
 def drawn_cases(calculation: Calculation, count: int, seed: int) -> Iterator[tuple[Documented, Any]]:
-    """Requests that have an answer, with their results."""
+    """Draw requests, and yield the first `count` requests that have a solution, with their answers.
+
+    Raise AssertionError if 60 draws are not enough.
+    """
     choice = random.Random(f"{seed} {calculation.path}")
     alike = [each for each in examples().values() if each.endpoint == calculation.path]
     found = 0
@@ -41,7 +44,7 @@ def drawn_cases(calculation: Calculation, count: int, seed: int) -> Iterator[tup
 
 
 def _body(calculation: Calculation, body: dict[str, Any], choice: random.Random) -> dict[str, Any]:
-    """A request with some of its numbers drawn anew, its films by formulas alone."""
+    """Change up to four numbers of a request body at random. Compute the film by formulas if there is a choice."""
     model = calculation.request
     if leaf_at(model, "model.lubrication"):
         set_value(model, body, "model.lubrication", "closed_form")
@@ -58,7 +61,10 @@ def _varies(leaf: Leaf) -> bool:
 
 
 def _drawn(leaf: Leaf, value: float, choice: random.Random) -> float:
-    """A number within the range of its field, as a rule by a factor away."""
+    """Return `value` times a random factor between 1/6 and 6, limited to the range of the field.
+
+    If `value` is 0, return a random number between -6 and 6, limited in the same way.
+    """
     low, high = leaf.declared.bounds.get("ge", -1e9), leaf.declared.bounds.get("le", 1e9)
     far = value * exp(choice.uniform(-log(REACH), log(REACH))) if value else choice.uniform(-1.0, 1.0) * REACH
     near = min(max(far, low), high)

@@ -1,4 +1,8 @@
-"""The worked example of a turbo gear unit: 12 MW, 10,000 1/min, 39/130, with a gear coupling on its pinion."""
+"""Return the worked example of a turbo gear unit, and variants of this example.
+
+The unit transmits 12 MW at a pinion speed of 10,000 1/min. The pinion has 39 teeth and the wheel has 130 teeth. The
+pinion shaft has a gear coupling.
+"""
 
 from dataclasses import replace
 from math import pi, radians
@@ -64,7 +68,7 @@ HEAT = Heat(0.6, pinion_bulk=95 + CELSIUS, wheel_bulk=80 + CELSIUS, reference=20
 
 
 def turbo_gear(modifications: Modifications = PLAIN, power: float = 12e6) -> DriveTrainInputs:
-    """The example with a flank as drawn, or another; thermal film left out."""
+    """Return the example with the given flank modifications. Formulas replace the thermal solution of the film."""
     gears = GearPairInputs(GearTeeth(39), GearTeeth(130), 6e-3, 0.2, helix_angle=radians(11.5), rack_tip_radius=0.38)
     distribution = LoadDistributionInputs(
         gears,
@@ -97,18 +101,21 @@ NO_EFFECTS = Effects(shafts=False, coupling=False, thermal=False)
 
 
 def cold(inputs: DriveTrainInputs) -> DriveTrainInputs:
-    """Every tooth at its reference temperature, nothing pumped warm."""
+    """Return the unit with both gears at the reference temperature, and without heating of the teeth by pumped gas."""
     reference = inputs.heat.reference
     return changed(inputs, {"heat.wall_response": 0.0, "heat.pinion_bulk": reference, "heat.wheel_bulk": reference})
 
 
 def rigid_bearings(bearings: tuple[Bearing, ...]) -> tuple[Bearing, ...]:
-    """Rigid bearings in the places of others."""
+    """Return rigid bearings at the positions of the given bearings."""
     return tuple(RigidBearing(bearing.position) for bearing in bearings)
 
 
 def running_axis(unit: DriveTrainInputs) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Place of the machine's hub and slope on the running axis of a pinion shaft without coupling."""
+    """Return the place (x, y) [m] and the slope (x, y) [-] of a machine's hub that is aligned with the running pinion.
+
+    The pinion shaft runs without a coupling. Its axis is extended as a straight line to the hub of the machine.
+    """
     curves = solve(replace(unit, effects=Effects(coupling=False))).shafts[0].curves
     reach = COUPLING.position - COUPLING.coupling.hub_distance - curves.z[0]
     slope = [float((line[1] - line[0]) / (curves.z[1] - curves.z[0])) for line in (curves.x, curves.y)]

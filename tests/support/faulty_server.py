@@ -1,6 +1,6 @@
-"""The service with more endpoints that misbehave on demand, run as `python -m tests.support.faulty_server`.
+"""Run the service with additional endpoints that misbehave on demand: `python -m tests.support.faulty_server`.
 
-It loads the kernels of two calculations only: a start takes a fraction of the time.
+This service loads the kernels of only two calculations, so that it starts in a fraction of the usual time.
 """
 
 import os
@@ -31,7 +31,7 @@ def sleep(seconds: float) -> float:
 
 
 def spin(seconds: float) -> float:
-    """Busy, and deaf to everything but SIGKILL."""
+    """Keep the processor busy. Ignore SIGTERM, so that the process must be killed with SIGKILL."""
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     end = time.monotonic() + seconds
     while time.monotonic() < end:
@@ -64,7 +64,10 @@ def solve_point_after_a_pause(question: Question, overrides: Overrides) -> Point
 
 
 def solve_chunk_with_pauses(question: Question, overrides: Sequence[Overrides]) -> Chunk:
-    """Runs in a worker; a chunk that has taken long enough ends after its point, as any other does."""
+    """Solve a chunk of points in a worker, with a pause before some of the points.
+
+    Like any other chunk, the chunk ends after the point at which it has taken long enough.
+    """
     with patch.object(points, "solve_point", solve_point_after_a_pause):
         return solve_chunk(question, overrides)
 
@@ -109,7 +112,7 @@ def create_faulty_app() -> FastAPI:
 
 
 def __getattr__(name: str) -> FastAPI:
-    """The application, made when uvicorn asks for it: workers import this module too."""
+    """Create the application when uvicorn asks for `app`, and not on import, because workers import this module too."""
     if name != "app":
         raise AttributeError(name)
     return create_faulty_app()

@@ -1,6 +1,7 @@
-"""Random loaded flanks and what holds for each of them: shared by the tests and by the long random search.
+"""Check what must hold for every loaded flank, on random flanks.
 
-Every `check_...` draws one case from the generator and raises AssertionError, with the case, where it fails.
+The tests and `benchmarks/search.py` run these checks. Every check in `SEARCHES` draws one case from a random generator.
+If the check fails, it raises AssertionError with the case.
 """
 
 from collections.abc import Callable
@@ -29,7 +30,7 @@ Check = Callable[[np.random.Generator], None]
 
 
 def draw_gears(rng: np.random.Generator) -> GearPairInputs:
-    """A pair that meshes, spur in one case of four."""
+    """Draw a gear pair that can mesh. About one of four pairs is a spur pair."""
     while True:
         module = 10 ** rng.uniform(-3, -2)
         gears = GearPairInputs(
@@ -49,7 +50,10 @@ def draw_gears(rng: np.random.Generator) -> GearPairInputs:
 
 
 def draw_flank(rng: np.random.Generator) -> LoadDistributionInputs:
-    """A flank from unmodified to peaked, under loads from a thousandth to full."""
+    """Draw a flank under load, with modifications of up to a tenth of the normal module or without modifications.
+
+    The highest load per size of the gear is about 3000 times the lowest.
+    """
     gears = draw_gears(rng)
     amplitude = gears.normal_module * 10 ** rng.uniform(-4, -1)
     names = ("profile_crowning", "lead_crowning", "tip_relief", "root_relief", "end_relief")
@@ -66,7 +70,7 @@ def draw_flank(rng: np.random.Generator) -> LoadDistributionInputs:
 
 
 def summary(result: LoadDistribution) -> dict[str, tuple[float, float]]:
-    """Every summary number of a loaded mesh that its resolution may touch, with the size to judge changes by."""
+    """Return the summary numbers that depend on the resolution, each of them with the scale for its changes."""
     error, load, loss = result.transmission_error, result.load, result.friction_loss
     approach = float(np.mean(result.balance.transmission_error - result.balance.unloaded_error))
     lengths = {
@@ -95,7 +99,7 @@ def check_resolution(rng: np.random.Generator) -> None:
 
 
 def check_resolution_of(inputs: LoadDistributionInputs) -> None:
-    """Doubling any number of points moves no summary number by more than 1 %."""
+    """Check that no summary number changes by more than 1 % if one of the numbers of points is doubled."""
     plain = summary(solve_load_distribution(inputs))
     for name in RESOLUTIONS:
         finer = changed(inputs, {f"resolution.{name}": 2 * getattr(inputs.resolution, name)})
@@ -110,7 +114,11 @@ def check_books(rng: np.random.Generator) -> None:
 
 
 def check_books_of(inputs: LoadDistributionInputs) -> None:
-    """Forces, friction power, the face load factor and all maxima by quadrature of the answer's own line loads."""
+    """Check the force, the friction power and the maxima of a result against the line loads of the same result.
+
+    The force and the friction power must agree with a quadrature of the line loads. The stated maxima of
+    line load, pressure and face load may not be noticeably smaller than the values at many points.
+    """
     result = solve_load_distribution(inputs)
     balance, plane = result.balance, result.path_of_contact.plane
     y = (np.arange(800) + 0.5) / 800 * plane.face_width
@@ -136,7 +144,10 @@ def check_books_of(inputs: LoadDistributionInputs) -> None:
 
 
 def _loads_at_roll_positions(result: LoadDistribution, y: FloatArray) -> FloatArray:
-    """Line loads where the balance was found: between roll positions light contacts interpolate to 2 %."""
+    """Return the line loads on the contact lines at the roll positions for which the loads were balanced.
+
+    Between these roll positions, interpolated line loads of light contacts have errors of up to 2 %.
+    """
     balance, plane = result.balance, result.path_of_contact.plane
     first = balance.rolls.phase[:, None] - y * plane.tan_base_helix
     lines = first + plane.base_pitch * np.arange(line_count(plane))[:, None, None]
@@ -146,7 +157,7 @@ def _loads_at_roll_positions(result: LoadDistribution, y: FloatArray) -> FloatAr
 
 
 def scans(inputs: LoadDistributionInputs) -> dict[str, tuple[float, float]]:
-    """By the name of each continuous input: a range about the case to scan it over."""
+    """Return a range of values for each continuous input. The keys are the dotted names of the inputs."""
     gears, module = inputs.gears, inputs.gears.normal_module
     helix = gears.helix_angle or radians(10)  # a spur gear is another gear: tests/solvers names that jump
     amplitudes = ("profile_crowning", "lead_crowning", "profile_slope", "helix_slope")
@@ -168,7 +179,10 @@ def scans(inputs: LoadDistributionInputs) -> dict[str, tuple[float, float]]:
 
 
 def check_no_jump(rng: np.random.Generator) -> None:
-    """No summary number jumps while one input goes through its range: a step's change shrinks with the step."""
+    """Check that no summary number jumps while one input is changed in small steps.
+
+    A change that stands out must shrink to at most 1 % if the step becomes smaller.
+    """
     inputs = draw_flank(rng)
     ranges = scans(inputs)
     name = str(rng.choice(list(ranges)))
@@ -187,7 +201,10 @@ def check_no_jump(rng: np.random.Generator) -> None:
 
 
 def _steps_out_of_line(found: list[dict[str, tuple[float, float]] | None]) -> dict[str, int]:
-    """By number: the largest step, where it is ten times its neighbours or more and more than 1 %."""
+    """Return, for each suspicious number, the index of the largest step in its series of values.
+
+    A number is suspicious if this step is more than 1 %, and more than ten times the median of the neighbouring steps.
+    """
     suspects = {}
     answers = [one or {} for one in found]
     for number in {name for one in answers for name in one}:
@@ -206,7 +223,11 @@ def _steps_out_of_line(found: list[dict[str, tuple[float, float]] | None]) -> di
 def _jump(
     numbers: Callable[[float], dict[str, tuple[float, float]] | None], number: str, low: float, high: float
 ) -> float:
-    """What is left of the largest step within low..high after zooming into it, relative to the number's size."""
+    """Zoom into the interval, and return the largest change of the number that remains, relative to its scale.
+
+    Each zoom keeps the eighth of the interval with the largest change. Return 0 if the number cannot be computed at a
+    point of the interval.
+    """
     step = np.inf
     for _ in range(ZOOMS):
         values = np.linspace(low, high, ZOOM + 1)

@@ -1,4 +1,4 @@
-"""The form of a page as a browser reads and sends it."""
+"""Read the form of a page as a browser reads and sends it."""
 
 from html.parser import HTMLParser
 
@@ -6,7 +6,10 @@ Pairs = list[tuple[str, str]]
 
 
 class _Form(HTMLParser):
-    """Names and texts of the controls of the form `form`, and what each select offers."""
+    """This parser reads the form with the id `form`.
+
+    `pairs` holds the names and texts of the controls, and `offers` holds the values that each of the selects offers.
+    """
 
     def __init__(self) -> None:
         super().__init__()
@@ -50,7 +53,7 @@ class _Form(HTMLParser):
 
 
 def read_form(html: str) -> tuple[Pairs, dict[str, list[str]]]:
-    """What the form of a page sends as it stands, and the texts that each select can have."""
+    """Return the fields that the form of a page sends if nobody edits it, and the values that each select offers."""
     form = _Form()
     form.feed(html)
     return form.pairs, form.offers

@@ -1,4 +1,4 @@
-"""Gear pairs that several scuffing tests share, and loads on them; numbers as the sources print them."""
+"""Several tests share these gear pairs and loads. Published numbers are given as the sources print them."""
 
 from dataclasses import replace
 from math import radians
@@ -24,7 +24,7 @@ UNDERCUT_PAIR = GearPairInputs(GearTeeth(12), GearTeeth(60), 2e-3, 20e-3, helix_
 
 
 def with_torque(inputs: LoadDistributionInputs, torque: float) -> LoadDistributionInputs:
-    """The same pair under another pinion torque [N m]."""
+    """Return the same gear pair under another pinion torque [N m]."""
     return replace(inputs, load=replace(inputs.load, pinion_torque=torque))
 
 

@@ -1,4 +1,7 @@
-"""Line contacts by their Hertzian pressure: a grid of them, contacts drawn over the whole range; Blok's formula."""
+"""Return line contacts with given Hertzian pressures, and Blok's flash temperature of a contact.
+
+The contacts form a grid or are random.
+"""
 
 from itertools import product
 from math import exp, log, pi
@@ -16,14 +19,20 @@ MODULUS = 226.37e9
 def at_pressure(
     pressure: float, ratio: float, speed: float, viscosity: float, radius: float, model: Model
 ) -> LineContactInputs:
-    """A contact by Hertzian pressure [Pa], slide-roll ratio, mean speed [m/s], viscosity [Pa s] and radius [m]."""
+    """Return the line contact with a given Hertzian pressure [Pa] and slide-roll ratio [-].
+
+    The mean speed [m/s], the viscosity [Pa s] and the reduced radius [m] are also given.
+    """
     line_load = 2.0 * pi * radius * pressure**2 / MODULUS
     contact = Contact(line_load, radius, speed * (1 + ratio / 2), speed * (1 - ratio / 2))
     return LineContactInputs(contact, lubricant=Lubricant(viscosity=viscosity), model=model)
 
 
 def random_contacts(model: Model, count: int, seed: int) -> list[LineContactInputs]:
-    """Hertzian pressure 0.3-3 GPa, slide-roll ratio 0-1.9, and by their logarithms mean speed, viscosity and radius."""
+    """Draw line contacts with Hertzian pressures of 0.3 to 3 GPa and slide-roll ratios of 0 to 1.9.
+
+    The logarithms of mean speed, viscosity and radius are uniformly distributed.
+    """
     random = Random(seed)
 
     def between(low: float, high: float) -> float:
@@ -43,13 +52,16 @@ def random_contacts(model: Model, count: int, seed: int) -> list[LineContactInpu
 
 
 def grid_contacts(model: Model) -> list[LineContactInputs]:
-    """The 200 contacts on which other schemes are known to fail."""
+    """Return a grid of 200 contacts, on which other schemes are known to fail."""
     ranges = ((0.3e9, 0.7e9, 1.2e9, 2e9, 3e9), (0.0, 0.1, 0.5, 1.0, 1.9), (1.0, 10.0), (0.01, 0.08), (5e-3, 20e-3))
     return [at_pressure(*values, model) for values in product(*ranges)]
 
 
 def blok_flash(at: Contact, friction: float) -> float:
-    """Blok's flash temperature [K], Eq. 25, steel on steel; u_i are the rolling speeds, not as printed the sliding."""
+    """Return Blok's flash temperature [K] of steel on steel, Eq. 25.
+
+    The speeds u_1 and u_2 are the rolling speeds. The source prints sliding speeds instead.
+    """
     steel = Solid()
     flash = blok_flash_temperature(
         friction=friction,

@@ -1,4 +1,7 @@
-"""Lists as people type or paste them, and their numbers; None where they have two readings."""
+"""These are lists as people type or paste them, and the numbers that each of the lists means.
+
+If a list can be read in two ways, None stands in place of the numbers.
+"""
 
 LISTS: list[tuple[str, list[float] | None]] = [
     ("0,4 0,2", [0.4, 0.2]),

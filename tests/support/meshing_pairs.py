@@ -1,4 +1,4 @@
-"""Random gear pairs that mesh, for properties that hold for any."""
+"""Draw random gear pairs that can mesh, for tests of properties that hold for every gear pair."""
 
 from dataclasses import replace
 from math import radians
@@ -25,7 +25,7 @@ def teeth(low: int, high: int) -> st.SearchStrategy[GearTeeth]:
 
 @st.composite
 def setups(draw: st.DrawFn, *, helix: bool = True) -> PumpingSetup:
-    """A set-up whose pair and tooth spaces exist; about three in four draws do."""
+    """Draw a set-up whose gear pair and tooth spaces are possible. About one of four draws is rejected."""
     module = draw(st.floats(1e-3, 12e-3))
     gears = GearPairInputs(
         pinion=draw(teeth(18, 70)),

@@ -1,6 +1,7 @@
-"""Modified gear pairs drawn over the range that users have, and the check that a thermal path is its points.
+"""Draw modified gear pairs like those of users, and check a thermal path against the separate solution of its points.
 
-Turbo, industrial and slow pairs, every kind of modification and misalignment, Ree-Eyring and Newtonian films.
+The pairs are turbo, industrial and slow pairs with every kind of modification and misalignment. Their films are
+Ree-Eyring or Newtonian.
 """
 
 from math import log, radians
@@ -38,7 +39,7 @@ PATH_POINTS = (25, 50, 100, 200)
 
 
 def random_pair(rng: np.random.Generator) -> ScuffingInputs:
-    """One pair of one kind under load, with up to four modifications, and the model of its film."""
+    """Draw a turbo, industrial or slow gear pair under load, with random modifications and a model of the film."""
     module, velocity, width, intensity, viscosity, bulk = KINDS[str(rng.choice(list(KINDS)))]
     teeth = int(rng.integers(18, 45))
     normal_module, helix = _between(rng, *module) * 1e-3, radians(float(rng.choice([0.0, rng.uniform(6.0, 30.0)])))
@@ -66,7 +67,10 @@ def random_pair(rng: np.random.Generator) -> ScuffingInputs:
 
 
 def random_modifications(rng: np.random.Generator, face_width: float) -> Modifications:
-    """Reliefs, crownings, slopes and deviations of 2 to 50 um, each present with one chance in three."""
+    """Draw reliefs, crownings, slopes and deviations of 2 to 50 um.
+
+    Each of them is present with a probability of 1/3, and otherwise zero.
+    """
 
     def amount(low: float = 2e-6, *, signed: bool = False) -> float:
         value = _between(rng, low, 50e-6) * (rng.choice([-1.0, 1.0]) if signed else 1.0)
@@ -88,12 +92,12 @@ def random_modifications(rng: np.random.Generator, face_width: float) -> Modific
 
 
 def _between(rng: np.random.Generator, low: float, high: float) -> float:
-    """A number drawn by its logarithm."""
+    """Draw a number between two bounds. The logarithm of the number is uniformly distributed."""
     return float(np.exp(rng.uniform(log(low), log(high))))
 
 
 def relieved_pair(points: int) -> ScuffingInputs:
-    """23/30 teeth, 50 kW, 30 um of tip and root relief, all else at its default."""
+    """Return a pair with 23 and 30 teeth, a power of 50 kW at 2000 1/min, and tip and root relief of 30 um."""
     gears = GearPairInputs(GearTeeth(23), GearTeeth(30), 3e-3, 20e-3, helix_angle=radians(9.8), rack_tip_radius=0.38)
     speed = angular_speed(2000.0)
     distribution = LoadDistributionInputs(
@@ -109,7 +113,10 @@ def relieved_pair(points: int) -> ScuffingInputs:
 
 
 def turbo_pair(helix_slope: float) -> ScuffingInputs:
-    """Twelve megawatts at 10,000 rpm: 39/130 teeth, module 6 mm, 11.5 degrees, 200 mm wide; helix slope [m]."""
+    """Return a turbo pair that transmits 12 MW at 10,000 1/min. `helix_slope` is in m.
+
+    The pair has 39 and 130 teeth, a module of 6 mm, a helix angle of 11.5 degrees and a face width of 200 mm.
+    """
     gears = GearPairInputs(
         GearTeeth(39), GearTeeth(130), 6e-3, 0.2, helix_angle=radians(11.5), rack_tip_radius=GROUND_FILLET
     )
@@ -124,14 +131,18 @@ def turbo_pair(helix_slope: float) -> ScuffingInputs:
 
 
 def points_alone(inputs: ScuffingInputs, result: Scuffing, every: int = 1) -> dict[int, ehl.LineContactResult]:
-    """Each point that the solver takes (or every so-manyth) as the contact it is, solved from nothing."""
+    """Solve the contacts at points of a path one by one, without a neighbour's solution as the start.
+
+    Refused and unloaded points are left out. Of the other points, only every `every`-th is solved. The keys of the
+    result are the indices of the points.
+    """
     taken = [k for k, status in enumerate(result.path.status) if status not in {"refused", "unloaded"}]
     points = points_of(inputs, result)
     return {k: ehl.solve(contact_at(inputs, points, k)) for k in taken[::every]}
 
 
 def points_of(inputs: ScuffingInputs, result: Scuffing) -> ContactPoints:
-    """Load, radius and speeds at the points of a path."""
+    """Return the load, the radius and the speeds at the points of a path."""
     mesh, psi, given = result.distribution, result.path.psi, inputs.distribution
     modulus = reduced_modulus(given.pinion_material, given.wheel_material)
     plane = mesh.path_of_contact.plane
@@ -141,9 +152,11 @@ def points_of(inputs: ScuffingInputs, result: Scuffing) -> ContactPoints:
 
 
 def check_path(inputs: ScuffingInputs, every: int = 1) -> Scuffing:
-    """A path equals its points: film and friction 1 %, flash 0.5 K or 1 %; AssertionError with the case if not.
+    """Check that a path has the same results as its points solved one by one. Return the results of the path.
 
-    What is solved alone is solved along the path. A path may solve more than its points alone: neighbours lead there.
+    The minimum film thickness and the friction must agree within 1 %, flash temperatures within 1 % or 0.5 K. If they
+    do not agree, the AssertionError contains the case. A point that is solved alone must also be solved along the path.
+    The path may solve more points, because the solver starts each point from the solution at a neighbour.
     """
     result = solve_scuffing(inputs)
     path, thermal = result.path, result.path.thermal
@@ -166,7 +179,10 @@ def check_path(inputs: ScuffingInputs, every: int = 1) -> Scuffing:
 
 
 def search_paths(rng: np.random.Generator) -> None:
-    """Draw one pair and check its path against every tenth of its points; a refused pair counts as checked."""
+    """Draw a pair and compare its path with every tenth point of the path, which is solved alone.
+
+    A pair that the solver refuses passes the check.
+    """
     inputs = random_pair(rng)
     try:
         check_path(inputs, every=10)

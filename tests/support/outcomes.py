@@ -1,4 +1,4 @@
-"""What a calculation says beside its numbers: its notices, why it refuses, that nothing is lost in between."""
+"""Return the notices and the errors of a calculation, and check that all numbers of a result are finite."""
 
 from collections.abc import Callable
 from dataclasses import fields, is_dataclass
@@ -12,26 +12,26 @@ from solvers.errors import InvalidInput, NoSolution
 
 
 def codes(result: Any) -> set[str]:
-    """The codes of a result's notices."""
+    """Return the codes of a result's notices."""
     return {notice.code for notice in result.warnings}
 
 
 def refused(calculation: Callable[..., object], *inputs: object) -> tuple[str, str | None]:
-    """Code and field with which a calculation refuses its inputs."""
+    """Return the code and the field of the error with which a calculation must refuse its inputs."""
     with pytest.raises(InvalidInput) as refusal:
         calculation(*inputs)
     return refusal.value.code, refusal.value.field
 
 
 def unsolved(calculation: Callable[..., object], *inputs: object) -> NoSolution:
-    """What a calculation without solution says."""
+    """Return the exception NoSolution that a calculation must raise."""
     with pytest.raises(NoSolution) as failure:
         calculation(*inputs)
     return failure.value
 
 
 def assert_finite(value: object, path: str = "result") -> None:
-    """No NaN or infinity anywhere, and every array read-only."""
+    """Check that a result contains no NaN and no infinity, and that every array in the result is read-only."""
     if is_dataclass(value):
         for part in fields(value):
             assert_finite(getattr(value, part.name), f"{path}.{part.name}")

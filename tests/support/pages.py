@@ -1,4 +1,7 @@
-"""What tests of pages share: what a link or an example asks for, and what a page of a case or of a study answers."""
+"""Request pages of cases and of studies, and return their HTML.
+
+The request comes from an example or from a link.
+"""
 
 import re
 from html import unescape
@@ -18,48 +21,48 @@ MOST, DEADLINE_S = 2500, 30.0
 
 
 def asked(name: str, **said: str) -> Asked:
-    """The page of an example; `said` is what its query says beside the case."""
+    """Return the request for the page of an example; `said` holds the fields of the query besides those of the case."""
     example = examples()[name]
     return Asked(page_path(BY_PATH[example.endpoint]), pairs_of(example.request), said)
 
 
 def asked_by(address: str) -> Asked:
-    """What a link asks for."""
+    """Return the request that a link makes."""
     path, _, query = address.partition("?")
     return Asked(path, *split_views(pairs_of_query(query)))
 
 
 def html_of(found: Asked, status: int = 200) -> str:
-    """The page of a case."""
+    """Return the HTML of the page of a case, which must have the given HTTP status."""
     shown = views.page(found)
     assert shown.status == status
     return shown.content.decode()
 
 
 def checked(page: type[StudyPage], found: Asked) -> StudyPage:
-    """The study that is asked for; raises what refuses it."""
+    """Return the study page for a request. If the study is refused, raise the error that says why."""
     return pages.checked(page, found, MOST, DEADLINE_S)
 
 
 def opened(page: type[StudyPage], found: Asked, status: int = 200) -> str:
-    """The page of a study before its lines come."""
+    """Return the HTML of a study page without the result. The page must have the given HTTP status."""
     shown = pages.opened(page, found, MOST, DEADLINE_S)
     assert shown.status == status
     return (shown.head + shown.tail).decode()
 
 
 def whole(study: StudyPage, lines: list[dict[str, Any]]) -> str:
-    """The page of a study with its lines, as its reader sees the texts."""
+    """Return the HTML of a study's result. Escaped characters are replaced by the characters that a reader sees."""
     return unescape(pages.drawn(study, lines).decode())
 
 
 def fault_at(html: str, control: str) -> str:
-    """What a page says is wrong at a control."""
+    """Return the message that a page shows at a control with a fault."""
     found = re.search(rf'id="f\.{re.escape(control)}-fault"(?! hidden)[^>]*>([^<]*)<', html)
     assert found, re.findall(r'<div class="problem".*?</div>', html, re.DOTALL)
     return unescape(found[1])
 
 
 def lines_of(study: StudyPage) -> list[dict[str, Any]]:
-    """Every line of a study, calculated in this process, as a client reads it."""
+    """Calculate a study in this process, and return every line of its answer as a client reads it."""
     return studies.lines_of(study.study)

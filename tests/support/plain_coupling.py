@@ -1,6 +1,6 @@
-"""One mesh of a gear coupling written down again from its equations in plain numpy: nothing of the solver's own.
+"""Compute one mesh of a gear coupling from its equations in plain numpy, without the code of the solver.
 
-Frame: tooth angle phi from the pivot position, tilt positions at 90 and 270 degrees.
+The tooth angle phi is measured from the pivot position. The tilt positions are at 90 and 270 degrees.
 """
 
 from dataclasses import dataclass
@@ -14,7 +14,11 @@ from solvers.coupling.inputs import CouplingInputs
 
 @dataclass(frozen=True)
 class PlainMesh:
-    """A mesh on a centred sleeve; `side` +1 where the hub drives, `tilt` +1 or -1 times the misalignment."""
+    """This mesh has a centred sleeve.
+
+    `side` is +1 if the hub drives the sleeve, and -1 if the sleeve drives the hub. `tilt` is +1 or -1, and multiplies
+    the misalignment.
+    """
 
     inputs: CouplingInputs
     side: int = 1
@@ -29,13 +33,13 @@ class PlainMesh:
         return self.tilt * self.inputs.operation.misalignment
 
     def angles(self, rotor: FloatArray) -> FloatArray:
-        """Tooth angles, (rotor angles, teeth)."""
+        """Return the tooth angles [rad] in the shape (rotor angles, teeth)."""
         teeth = self.inputs.coupling.teeth
         angles: FloatArray = np.asarray(rotor)[:, None] + 2.0 * pi / teeth * np.arange(teeth)
         return angles
 
     def ahead(self, phi: FloatArray) -> FloatArray:
-        """How far each tooth bears early [m]: tangential displacement and pitch deviation."""
+        """Return the lead of each tooth [m]: the sum of its tangential displacement and its pitch deviation."""
         coupling, alpha = self.inputs.coupling, self.inputs.coupling.pressure_angle
         ratio, scale = coupling.crowning_ratio, self.radius * self.delta**2 / 2.0
         if self.inputs.model.kinematics == "tangential":
@@ -49,17 +53,20 @@ class PlainMesh:
         return ahead
 
     def normals(self, phi: FloatArray) -> FloatArray:
-        """Lateral force per tangential tooth force, (2, ...) for x and y."""
+        """Return the lateral force of each tooth, divided by its tangential force. The first axis is x and y."""
         radial, side = tan(self.inputs.coupling.pressure_angle), self.side
         return np.stack((radial * np.cos(phi) - side * np.sin(phi), radial * np.sin(phi) + side * np.cos(phi)))
 
     def sliding(self, phi: FloatArray) -> FloatArray:
-        """Axial velocity of the hub's tooth in the sleeve by the tilt [m/s]."""
+        """Return the axial velocity [m/s] that the tilt gives each tooth of the hub relative to the sleeve."""
         sliding: FloatArray = self.delta * self.inputs.operation.speed * self.radius * np.sin(phi)
         return sliding
 
     def forces(self, phi: FloatArray) -> FloatArray:
-        """Tangential tooth forces [N] that make up the torque: the earliest teeth carry, as many as are needed."""
+        """Return the tangential tooth forces [N], which together transmit the torque.
+
+        The teeth with the largest lead carry the load. As many teeth carry as the torque requires.
+        """
         stiffness, ahead = self.inputs.coupling.tooth_stiffness, self.ahead(phi)
         needed = self.inputs.operation.torque / self.radius / stiffness
         first = np.sort(ahead, axis=1)[:, ::-1]
@@ -72,7 +79,10 @@ class PlainMesh:
         return forces
 
     def friction(self, rotor: FloatArray, coefficient: float) -> tuple[float, float, float]:
-        """Axial force [N], moment against the tilt [N m] and power [W] of friction, means over the rotor angles."""
+        """Return the axial force [N], the moment against the tilt [N m] and the power [W] of the friction.
+
+        All three values are means over the rotor angles.
+        """
         phi = self.angles(rotor)
         velocity = self.inputs.operation.axial_velocity + self.sliding(phi)
         held = coefficient / cos(self.inputs.coupling.pressure_angle) * self.forces(phi) / len(rotor)
@@ -82,5 +92,5 @@ class PlainMesh:
 
 
 def midpoints(rows: int, turn: float) -> FloatArray:
-    """So many rotor angles [rad], evenly spread over a turn."""
+    """Divide the angle `turn` [rad] into `rows` equal parts, and return the midpoints of the parts."""
     return (np.arange(rows) + 0.5) / rows * turn

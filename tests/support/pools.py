@@ -1,4 +1,7 @@
-"""Pools for studies without processes: one that calculates at once, one that does what a test says."""
+"""Replace the worker processes of studies by pools in the process of the test.
+
+One pool calculates every answer at once. The other pool gives the answers that a test prescribes.
+"""
 
 import asyncio
 from collections.abc import Callable, Sequence
@@ -9,7 +12,7 @@ from app.studies.requests import Overrides
 
 
 class InlinePool:
-    """Calculates in this process, when asked."""
+    """This pool calculates in the process of the test as soon as a calculation is submitted."""
 
     def __init__(self, slots: int = 1) -> None:
         self.slots = slots
@@ -21,9 +24,11 @@ class InlinePool:
 
 
 class ScriptedPool:
-    """Answers the point at `x` with x, after what `faults` has in store for it; keeps back what it `holds`.
+    """This pool answers the point at `x` with the number x.
 
-    It takes `seconds` a point, says so, and solves at most `most` of the points of a call.
+    If `faults` has errors for a point, the calls with this point fail first, one call for each of the errors. A call
+    with a point in `holds` is never answered. The pool reports a computing time of `seconds` per point. The pool
+    solves at most `most` of the points of a call.
     """
 
     def __init__(

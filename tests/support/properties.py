@@ -1,4 +1,4 @@
-"""Properties checked on random examples: on few in the default run, on many where slow tests run."""
+"""Check properties on random examples: on few examples by default, and on many examples if slow tests are run."""
 
 from collections.abc import Callable
 
@@ -15,7 +15,7 @@ Test = Callable[[int], None]
 def examples(
     few: int, many: int, *drawn: SearchStrategy, **named: SearchStrategy
 ) -> Callable[[Callable[..., None]], Test]:
-    """Turn a property into a test over what the strategies draw, as `given` does."""
+    """Return a decorator that turns a property into a test on random examples, as `given` of hypothesis does."""
 
     def decorate(holds: Callable[..., None]) -> Test:
         @_on(few, many)
@@ -29,7 +29,10 @@ def examples(
 
 
 def seeds(few: int, many: int) -> Callable[[Callable[[np.random.Generator], None]], Test]:
-    """Turn a property of what a generator draws into a test over seeds; a draw that a model refuses is passed over."""
+    """Return a decorator that turns a property of random draws into a test with many seeds.
+
+    If the model refuses a draw or has no solution, the draw is ignored. At most 20 % of the draws may be ignored.
+    """
 
     def decorate(holds: Callable[[np.random.Generator], None]) -> Test:
         @_on(few, many)
@@ -52,7 +55,7 @@ def seeds(few: int, many: int) -> Callable[[Callable[[np.random.Generator], None
 
 
 def _on(few: int, many: int) -> pytest.MarkDecorator:
-    """Few examples by default, many where slow tests run."""
+    """Return a mark that runs a test on few examples, and also on many examples if slow tests are run."""
     return pytest.mark.parametrize(
         "count", [pytest.param(few, id="few"), pytest.param(many, id="many", marks=pytest.mark.slow)]
     )

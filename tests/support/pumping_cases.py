@@ -1,7 +1,7 @@
-"""Random pumping set-ups of the kind users have, and what must hold for each of them.
+"""Check what must hold for every pumping set-up, on random set-ups like those of users.
 
-Each `check_` draws one case from a numpy generator and raises AssertionError, the case printed, where it fails; a draw
-that no pair of gears can be is drawn again.
+A check draws one case from a numpy generator. If the draw is not a possible gear pair, the check draws again. If the
+check fails, it raises AssertionError with the case. A function whose name ends in `_of` checks a given case.
 """
 
 from collections.abc import Iterator
@@ -26,7 +26,10 @@ PITCH_LINE_SPEEDS = (15.0, 200.0)  # m/s
 
 
 def random_gears(draw: Generator) -> GearPairInputs:
-    """A pair as turbo and industrial gear units have them: shifts, full or short tips, spur in one case of five."""
+    """Draw a gear pair like those of turbo and industrial gear units.
+
+    The profile shift and the addendum of each gear are random. One of five pairs is a spur pair.
+    """
     module = draw.choice([1.5, 2.0, 3.0, 4.0, 5.0, 6.8, 7.0, 8.0, 10.0]) * 1e-3
     pinion = int(draw.integers(18, 60))
     wheel = int(draw.integers(pinion, 6 * pinion))
@@ -48,7 +51,10 @@ def _teeth(draw: Generator, count: int) -> GearTeeth:
 
 
 def rough_gears(draw: Generator) -> GearPairInputs:
-    """A pair that may be undercut, reach into fillets, lack clearance or be given too short a centre distance."""
+    """Draw a gear pair that may be impossible.
+
+    The teeth may be undercut, reach into fillets or lack clearance, and the centre distance may be too short.
+    """
     gears = replace(
         random_gears(draw),
         pinion=_rough_teeth(draw, 6, 30),
@@ -72,7 +78,10 @@ def _rough_teeth(draw: Generator, low: int, high: int) -> GearTeeth:
 
 
 def random_setup(draw: Generator, model: PumpingModel | None = None) -> PumpingSetup:
-    """A set-up whose gears and tooth spaces exist, the centre distance given with a little play."""
+    """Draw a set-up whose gears and tooth spaces are possible.
+
+    The centre distance is up to 0.03 normal modules larger than the centre distance without backlash.
+    """
     while True:
         gears = random_gears(draw)
         try:
@@ -97,17 +106,21 @@ def _grooves(draw: Generator, face_width: float) -> tuple[Groove, ...]:
 
 
 def random_speed(draw: Generator, setup: PumpingSetup) -> float:
-    """A pinion speed [rad/s] by its pitch line."""
+    """Draw a pinion speed [rad/s] at which the pitch-line velocity is 15 to 200 m/s."""
     return draw.uniform(*PITCH_LINE_SPEEDS) / gear_pair(setup.gears).pinion_working_radius
 
 
 def spaces_of(result: PumpingResult) -> Iterator[SpacesResult]:
-    """The spaces that were asked for."""
+    """Return the results of the gears whose tooth spaces were requested."""
     return (spaces for spaces in (result.pinion_spaces, result.wheel_spaces) if spaces is not None)
 
 
 def check_books(draw: Generator) -> None:
-    """Mass and energy close, net flows are out less in, power is work times frequency and is what heats the gas."""
+    """Check the balances of mass and energy, the net mass flows and the pumping power.
+
+    Each net flow at an end is the outflow minus the inflow, and all net flows add up to 0. The pumping power is the
+    work per space times the meshing frequency.
+    """
     flow = Flow(draw.choice([Flow.GAS_DYNAMICS, Flow.POCKET_CHAIN]))
     setup = random_setup(draw, PumpingModel(flow=flow, slices=40 if flow is Flow.GAS_DYNAMICS else 8))
     case = PumpingInputs(setup, random_speed(draw, setup))
@@ -128,7 +141,10 @@ def check_books(draw: Generator) -> None:
 
 
 def numbers(spaces: SpacesResult) -> dict[str, float]:
-    """The summary of one gear's spaces that a resolution could move; pressures as gauge pressures."""
+    """Return the summary numbers of one gear's spaces that depend on the resolution.
+
+    Pressures are magnitudes of gauge pressures, divided by the ambient pressure.
+    """
     assert spaces.max_temperature_rise is not None
     flow = spaces.mass_flow
     return {
@@ -144,7 +160,7 @@ def numbers(spaces: SpacesResult) -> dict[str, float]:
 
 
 def uncertain(result: PumpingResult, spaces: SpacesResult, name: str, value: float) -> float:
-    """By how much a number of a gear's spaces may be off, by what the answer states."""
+    """Return the uncertainty of a number of a gear's spaces, as the result states it."""
     if name == "radial_flow":
         return spaces.mass_flow.radial_uncertainty
     stated = asdict(result.resolution)
@@ -157,7 +173,7 @@ def check_resolution(draw: Generator) -> None:
 
 
 def check_resolution_of(case: PumpingInputs) -> None:
-    """Twice the slices move no number by more than 1 % or its stated uncertainty."""
+    """Check that twice the slices change a number by at most 1 % or its stated uncertainty, whichever is larger."""
     here, there = solve(case), solve(changed(case, {"setup.model.slices": 200}))
     for coarse, fine in zip(spaces_of(here), spaces_of(there), strict=True):
         flow, after = coarse.mass_flow, numbers(fine)
@@ -188,7 +204,7 @@ SCANS = {
 
 
 def scanned(case: PumpingInputs, scan: str, by: float) -> PumpingInputs:
-    """A case with one input changed by a number from nought to one over the range that is scanned."""
+    """Change one input of the case. As `by` goes from 0 to 1, the input goes through the range of its scan."""
     (name, share), gears = SCANS[scan], case.setup.gears
     before = value_at(case, name)
     if share is not None:
@@ -213,31 +229,36 @@ LITTLE = 0.1  # of a number on 40 slices
 
 
 def scan(cases: list[PumpingInputs]) -> dict[str, list[float]]:
-    """Numbers of the first spaces over a scan."""
+    """Solve the cases of a scan, and return the values of each number of the first gear's spaces."""
     rows = [numbers(next(spaces_of(solve(case)))) for case in cases]
     return {name: [row[name] for row in rows] for name in rows[0]}
 
 
 def jumps(values: list[float]) -> list[int]:
-    """Where a scan steps by more than ten times the changes around it, and by more than the noise of the grid."""
+    """Return the indices of the steps of a scan that are suspiciously large.
+
+    Such a step is more than ten times the median of the steps around it, and exceeds the noise of the grid.
+    """
     steps = np.abs(np.diff(values))
     local = np.array([np.median(np.delete(steps[max(k - 4, 0) : k + 5], min(k, 4))) for k in range(steps.size)])
     return list(np.flatnonzero((steps > JUMP * local) & (steps > NOISE * np.abs(values).max())))
 
 
 def check_no_jump(draw: Generator, name: str | None = None) -> None:
-    """Scan one input, any unless named, of a random case."""
+    """Draw a case, and check that a scan of the input `name` has no jump. If `name` is None, draw the input."""
     setup = random_setup(draw, PumpingModel(slices=40, gap=Gap(draw.choice(list(Gap)))))
     case = PumpingInputs(setup, random_speed(draw, setup))
     check_no_jump_of(case, name or str(draw.choice(list(SCANS))))
 
 
 def check_no_jump_of(case: PumpingInputs, name: str) -> None:
-    """A fine scan of one input has no jump.
+    """Check that a fine scan of one input has no jump.
 
-    Where a stroke takes a whole step more or less, or a land between grooves a slice, numbers step: by no more than
-    the answers on both sides say that they are uncertain, and by little; the radial flow, which is left of what
-    passes the ends, by little of that.
+    A number may change suddenly if the stroke has one time step more or less, or a land between grooves has one slice
+    more or less. Such a change must not exceed the sum of the uncertainties of the results before and after the change.
+    The change must also be at most a tenth of the largest value of the number. The radial flow is a small difference of
+    large flows. The flows out of both ends are therefore added to its largest value. If both results have the notice
+    `area_jump`, only the uncertainties count.
     """
     cases = [scanned(case, name, k / (POINTS - 1)) for k in range(POINTS)]
     try:

@@ -1,4 +1,4 @@
-"""Random gear units, and images of a unit: rotated or mirrored."""
+"""Random gear units, and functions that rotate or mirror a gear unit."""
 
 from dataclasses import replace
 from math import pi, radians
@@ -47,7 +47,10 @@ def _bearings(draw: st.DrawFn, first: float, second: float, kind: str) -> tuple[
 
 @st.composite
 def units(draw: st.DrawFn) -> DriveTrainInputs:
-    """Shaft lengths, bearings, gears, coupling on either shaft or none, any angles and senses."""
+    """Draw the inputs of a gear unit.
+
+    Gears, modifications, torque, bearings, directions and rotation are random. A coupling is on one shaft or on none.
+    """
     plain = turbo_gear()
     helix = draw(st.sampled_from([0.0, 8.0, 11.5, 20.0]))
     gears = replace(
@@ -103,7 +106,7 @@ def units(draw: st.DrawFn) -> DriveTrainInputs:
 
 
 def rotated(inputs: DriveTrainInputs, angle: float) -> DriveTrainInputs:
-    """The whole unit turned about Z."""
+    """Return the whole unit, rotated about Z by an angle [rad]."""
     turn = np.array([[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]])
     own = inputs.arrangement
     arrangement = replace(own, wheel_angle=own.wheel_angle + angle, gravity_angle=own.gravity_angle + angle)
@@ -111,7 +114,7 @@ def rotated(inputs: DriveTrainInputs, angle: float) -> DriveTrainInputs:
 
 
 def mirrored(inputs: DriveTrainInputs) -> DriveTrainInputs:
-    """The whole unit seen in a mirror across X."""
+    """Return the mirror image of the whole unit; the mirror is the plane X = 0."""
     own = inputs.arrangement
     arrangement = Arrangement(
         hand="left" if own.hand == "right" else "right",
@@ -123,14 +126,20 @@ def mirrored(inputs: DriveTrainInputs) -> DriveTrainInputs:
 
 
 def _spur_face_reversed(image: DriveTrainInputs) -> DriveTrainInputs:
-    """The mirrored unit; of a spur pair, whose face begins where the rotation says, the flank is mirrored too."""
+    """Return the mirrored unit, with the opposite helix slope if the gears are a spur pair.
+
+    The face of a spur pair begins at the end that the rotation determines. In a mirrored unit, this is the other end.
+    """
     slope = "mesh.distribution.modifications.helix_slope"
     is_spur = image.mesh.distribution.gears.helix_angle == 0.0
     return changed(image, {slope: -value_at(image, slope)}) if is_spur else image
 
 
 def reversed_ends(inputs: DriveTrainInputs) -> DriveTrainInputs:
-    """The whole unit seen in a mirror across Z; slopes of the machine and thrusts change their sign."""
+    """Return the mirror image of the whole unit; the mirror is the plane Z = 0.
+
+    The slopes of the machines' axes and the thrust fractions of the couplings change their sign.
+    """
     width = inputs.mesh.distribution.gears.face_width
     hand = "left" if inputs.arrangement.hand == "right" else "right"
     shafts = [
@@ -164,7 +173,7 @@ def reversed_ends(inputs: DriveTrainInputs) -> DriveTrainInputs:
 
 
 def _mapped(inputs: DriveTrainInputs, matrix: FloatArray, arrangement: Arrangement) -> DriveTrainInputs:
-    """Everything in the plane of X and Y multiplied by an orthogonal matrix."""
+    """Transform all vectors and stiffnesses in X and Y with an orthogonal matrix, and replace the arrangement."""
 
     def vector(one: Vector2) -> Vector2:
         x, y = (matrix @ one).tolist()

@@ -1,6 +1,7 @@
-"""The rules across fields by which a request that fits its schema may be refused.
+"""The rules by which an endpoint may refuse a request that fits the schema of the endpoint.
 
-Every other refusal is a fault of the schema. Schemathesis loads this module as its hooks (`schemathesis.toml`).
+If an endpoint refuses such a request for any other reason, the schema has a fault. Schemathesis loads this module as
+its hooks (`schemathesis.toml`).
 """
 
 import re
@@ -60,7 +61,10 @@ RULES = {
 
 @schemathesis.check
 def refused_by_a_known_rule(context: Any, response: Any, case: Any) -> None:
-    """A request that fits the schema is refused by one of the rules, or inside the open request of a study."""
+    """Fail if an endpoint refuses a request that fits the schema, and `RULES` does not list the code for this endpoint.
+
+    In a study, any fault is allowed inside `request` and `cases`, because the schema leaves their content open.
+    """
     del context
     if response.status_code != 422 or case.meta is None or not case.meta.generation.mode.is_positive:
         return

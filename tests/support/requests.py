@@ -1,4 +1,7 @@
-"""Requests as users send them, changed at dotted paths, and what is answered, by the service or without one."""
+"""Requests as users send them, and functions that change requests and read answers.
+
+Some functions solve or check a request in this process, without a server.
+"""
 
 import copy
 import json
@@ -17,7 +20,7 @@ from app.schema.reading import faults
 
 Post = Callable[[str, object], httpx.Response]
 GONE = object()
-"""The value of a field that a changed request leaves out."""
+"""A field that is changed to this value is removed from the request."""
 
 PAIR: dict[str, Any] = {
     "gears": {
@@ -45,19 +48,25 @@ CONTACT: dict[str, Any] = {
 
 
 def solved(endpoint: str, body: dict[str, Any], changes: Mapping[str, Any] = {}) -> dict[str, Any]:
-    """The summary of the answer to a changed request."""
+    """Change a request at dotted paths, solve the request in this process and return the answer.
+
+    The answer has the detail "summary" unless `changes` sets another detail.
+    """
     calculation = BY_PATH[endpoint]
     request = calculation.request.model_validate(changed(body, {"detail": "summary", **changes}))
     return json.loads(json_answer(calculation, request))
 
 
 def example(name: str, changes: Mapping[str, Any] = {}) -> dict[str, Any]:
-    """The request of an example, changed at dotted paths."""
+    """Return the request of an example, with changes at dotted paths."""
     return changed(examples()[name].request, changes)
 
 
 def changed(body: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """A copy with values at dotted paths set or left out; a number in a path is the place in a list."""
+    """Return a copy of a request with new values at dotted paths. The value `GONE` removes a field.
+
+    A number in a path is an index of a list.
+    """
     result = copy.deepcopy(body)
     for path, value in changes.items():
         *way, last = path.split(".")
@@ -72,7 +81,7 @@ def changed(body: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def value_at(answer: dict[str, Any], path: str) -> Any:
-    """The value of an answer at a dotted path; a number in a path is the place in a list."""
+    """Return the value at a dotted path of an answer. A number in the path is an index of a list."""
     place: Any = answer
     for part in path.split("."):
         place = place[int(part)] if part.isdecimal() else place[part]
@@ -80,35 +89,35 @@ def value_at(answer: dict[str, Any], path: str) -> Any:
 
 
 def accepted(response: httpx.Response) -> dict[str, Any]:
-    """The answer of the service to a request that it takes."""
+    """Check that the status of a response is 200, and return the answer."""
     assert response.status_code == 200, response.text
     return response.json()
 
 
 def refusals(response: httpx.Response) -> list[tuple[str, str]]:
-    """Code and dotted path of everything that is wrong with a request that the service refuses."""
+    """Check that the service has refused a request, and return the code and the dotted path of each fault."""
     assert response.status_code == 422, response.text
     assert response.headers["content-type"] == "application/problem+json"
     return [(each["code"], each["pointer"][1:].replace("/", ".")) for each in response.json()["errors"]]
 
 
 def assumptions(answer: dict[str, Any]) -> dict[str, Any]:
-    """The values that an answer assumes, by their fields."""
+    """Return a dictionary from each assumed field of an answer to the assumed value."""
     return {each["field"]: each["value"] for each in answer["assumptions"]}
 
 
 def warned(answer: dict[str, Any]) -> dict[str, Any]:
-    """The fields that an answer warns of, by the codes of its warnings."""
+    """Return a dictionary from the code of each warning in an answer to the field of the warning."""
     return {each["code"]: each["field"] for each in answer["warnings"]}
 
 
 def refused(endpoint: str, body: dict[str, Any], changes: Mapping[str, Any]) -> str:
-    """The message of the first fault of a request with these changes."""
+    """Return the message of the first fault of a changed request."""
     return all_faults(endpoint, body, changes)[0].message
 
 
 def all_faults(endpoint: str, body: dict[str, Any], changes: Mapping[str, Any]) -> list[Fault]:
-    """All faults of a changed request."""
+    """Check that a changed request is not valid, and return its faults."""
     model = BY_PATH[endpoint].request
     with pytest.raises(ValidationError) as refusal:
         model.model_validate(changed(body, changes))

@@ -1,4 +1,4 @@
-"""Starts the service as a process of its own, and looks at its processes from outside."""
+"""Functions that start the service in a separate process and observe the processes of the service."""
 
 import os
 import signal
@@ -23,9 +23,12 @@ HANGING = 1234.5  # a varied value whose point never ends there
 LONG, LONG_S = 987.5, 3.0  # one whose point takes three seconds
 NAP, NAP_S = 876.5, 0.2  # and one whose point takes a fifth of a second
 PATIENCE_S = 30.0
-"""For what takes well below a second on quiet cores: tests ask whether it happens, `benchmarks` how fast."""
+"""Longest time that a test waits for an event [s]. On idle cores the event takes well below a second.
+
+The tests only check that the event happens; the scripts in `benchmarks` measure times.
+"""
 Server = tuple[subprocess.Popen[str], str]
-"""A process and its address."""
+"""The process of a server, and the URL of the server."""
 
 
 def free_port() -> int:
@@ -43,7 +46,10 @@ def started_server(
     environment: dict[str, str] | None = None,
     **settings: object,
 ) -> Iterator[Server]:
-    """A server process and its address, whatever it answers yet; settings become environment variables."""
+    """Start a server and yield its process and its URL, without waiting until the server is ready.
+
+    The settings are passed as environment variables. At the end of the context, the process is stopped.
+    """
     port = free_port()
     variables = {f"TRIBODRIVE_{name.upper()}": str(value) for name, value in settings.items()}
     output = log if isinstance(log, int) else (log or Path(os.devnull)).open("w")
@@ -72,19 +78,22 @@ def started_server(
 def running_server(
     command: list[str] | None = None, *, log: Path | None = None, **settings: object
 ) -> Iterator[Server]:
-    """The same, once everything is warm."""
+    """Start a server, and yield its process and its URL when all calculations are ready."""
     with started_server(command, log=log, **settings) as (process, address):
         wait_until_warm(process, address)
         yield process, address
 
 
 def faulty_server(**settings: Any) -> AbstractContextManager[Server]:
-    """The service with endpoints that misbehave, and the kernels of the coupling and the load distribution only."""
+    """Return a context that runs the service with additional endpoints that misbehave.
+
+    At the start, this service loads only the kernels of the coupling and of the load distribution.
+    """
     return running_server(FAULTY, **{"log_level": "info" if "log" in settings else "error", **settings})
 
 
 def wait_until(condition: Callable[[], bool], seconds: float = PATIENCE_S) -> None:
-    """Return as soon as something holds; what never comes fails."""
+    """Wait until a condition holds. Fail if the condition does not hold within the given time [s]."""
     end = time.monotonic() + seconds
     while not condition():
         assert time.monotonic() < end
@@ -93,7 +102,7 @@ def wait_until(condition: Callable[[], bool], seconds: float = PATIENCE_S) -> No
 
 @contextmanager
 def meanwhile(*works: Callable[[], object]) -> Iterator[None]:
-    """Each of these again and again, in a thread of its own, while the context is open."""
+    """Call each function repeatedly while the context is open. Each function runs in a separate thread."""
     done = threading.Event()
 
     def repeat(work: Callable[[], object]) -> None:
@@ -111,7 +120,7 @@ def meanwhile(*works: Callable[[], object]) -> Iterator[None]:
 
 
 def metric(address: str, name: str) -> float:
-    """One number without labels of the service's metrics."""
+    """Return the value of a metric of the service. The metric must not have labels."""
     lines = httpx.get(f"{address}/metrics", timeout=PATIENCE_S).text.splitlines()
     return float(next(line.split()[1] for line in lines if line.startswith(f"{name} ")))
 
@@ -136,19 +145,19 @@ def wait_until_warm(
 
 
 def children(pid: int) -> list[int]:
-    """Process ids of the children of a process."""
+    """Return the process ids of the children of a process."""
     with suppress(OSError):
         return [int(child) for child in Path(f"/proc/{pid}/task/{pid}/children").read_text("ascii").split()]
     return []
 
 
 def workers(process: subprocess.Popen[Any]) -> list[int]:
-    """Process ids of the workers."""
+    """Return the process ids of the workers of a server."""
     return [child for child in children(process.pid) if "anyio.to_process" in command_line(child)]
 
 
 def descendants(pid: int) -> set[int]:
-    """Every process below a process."""
+    """Return the ids of the children of a process, of their children, and so on."""
     found = set(children(pid))
     return found.union(*map(descendants, found))
 
@@ -160,43 +169,43 @@ def command_line(pid: int) -> str:
 
 
 def wait_until_gone(pids: Iterable[int]) -> None:
-    """None of the processes is left."""
+    """Wait until none of the processes runs. A zombie process does not count as running."""
     left = set(pids)
     wait_until(lambda: not any(map(is_alive, left)))
 
 
 def is_alive(pid: int) -> bool:
-    """Whether the process runs: neither gone nor a zombie."""
+    """Return whether a process runs. A zombie process does not count as running."""
     with suppress(OSError):
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
     return False
 
 
 def descriptors(pid: int) -> int:
-    """How many files and sockets a process has open."""
+    """Return the number of open file descriptors of a process, including sockets."""
     return len(list(Path(f"/proc/{pid}/fd").iterdir()))
 
 
 def memory_mb(pid: int) -> float:
-    """Resident memory of one process [MiB]."""
+    """Return the resident memory of one process [MiB]."""
     pages = int(Path(f"/proc/{pid}/statm").read_text("ascii").split()[1])
     return pages * os.sysconf("SC_PAGE_SIZE") / 2**20
 
 
 def send_signal(pid: int, number: signal.Signals) -> None:
-    """Signal a process that may have gone meanwhile."""
+    """Send a signal to a process. Do nothing if the process no longer exists."""
     with suppress(ProcessLookupError):
         os.kill(pid, number)
 
 
 def connected(address: str) -> socket.socket:
-    """A connection of one's own to the server."""
+    """Open a TCP connection to the server at this URL, and return the socket."""
     target = urlsplit(address)
     return socket.create_connection((target.hostname, target.port), timeout=10)
 
 
 def answer_to(connection: socket.socket) -> bytes:
-    """Everything the service sends until it closes the connection."""
+    """Return all bytes that the service sends before the connection is closed, fails or times out."""
     received = b""
     with suppress(OSError):
         while piece := connection.recv(65536):

@@ -1,4 +1,7 @@
-"""Cases that a search once found, stored as the inputs they are: `tests/cases`, one file a model, one line a case."""
+"""Cases that once failed in a search with random inputs.
+
+The folder `tests/cases` has one file per model. A line of a file holds the inputs of one case.
+"""
 
 import json
 from pathlib import Path
@@ -11,6 +14,9 @@ Inputs = TypeVar("Inputs")
 
 
 def stored(kind: type[Inputs], model: str, name: str) -> list[Inputs]:
-    """The cases of a name in the file of a model; what they leave out is the default of `kind`."""
+    """Return the cases that have a name in the file of a model.
+
+    The cases are objects of the class `kind`. Fields that the file leaves out have the default values of this class.
+    """
     cases = json.loads((CASES / f"{model}.json").read_text("utf-8"))[name]
     return TypeAdapter(list[kind], config=ConfigDict(extra="forbid")).validate_python(cases)  # type: ignore[valid-type]

@@ -1,4 +1,4 @@
-"""Studies of an example: their lines, calculated in this process, and what is wrong with one that is refused."""
+"""Functions that make a study of an example, run a study in this process, and read the fault of a refused study."""
 
 import asyncio
 import json
@@ -16,13 +16,13 @@ Planner = Callable[[Any, int, float], Study]
 
 
 def study_of(example: str, **parts: Any) -> dict[str, Any]:
-    """The body of a study of an example; parts that are None are left out."""
+    """Return the body of a study of an example. Parts that are None are left out of the body."""
     named = {"endpoint": examples()[example].endpoint, "request": examples()[example].request, **parts}
     return {name: part for name, part in named.items() if part is not None}
 
 
 def lines_of(study: Study, pool: Pool | None = None, seconds: float = 600.0) -> list[dict[str, Any]]:
-    """Every line as a client reads it."""
+    """Run a study in this process, and return all lines as a client reads the lines."""
 
     async def run() -> bytes:
         clock = Clock(study.total)
@@ -33,13 +33,13 @@ def lines_of(study: Study, pool: Pool | None = None, seconds: float = 600.0) -> 
 
 
 def timeless(lines: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """The lines without those of progress, and without the time."""
+    """Return the lines of a study without lines of progress and without the elapsed time in the other lines."""
     told = (line for line in lines if line["type"] != "progress")
     return [{key: value for key, value in line.items() if key != "elapsed_s"} for line in told]
 
 
 def fault_of(planner: Planner, body: object, most: int = 2500) -> tuple[str, str, str]:
-    """Place, code and message of what a body is refused for."""
+    """Check that a study refuses a body, and return the pointer, the code and the message of the first fault."""
     with pytest.raises((Unprocessable, InvalidBody)) as caught:
         planner(body, most, 30.0)
     fault = faults_of(caught.value)[0]

@@ -1,4 +1,4 @@
-"""Random couplings of the kind users have: books close, no resolution and no jump shows; longer runs marked slow."""
+"""Random couplings, as users have them, pass checks of balances, resolution and jumps; long runs are marked slow."""
 
 from collections.abc import Callable
 
@@ -29,7 +29,7 @@ def test_random_couplings(check: Callable[[Generator], None], seed: int, times: 
 
 
 def test_the_largest_force_is_not_among_the_highest_samples() -> None:
-    """Of 80 teeth with errors, the sample beside the largest force was the fourteenth peak."""
+    """In this coupling with 80 teeth, the sample beside the largest force is only the fourteenth highest peak."""
     (inputs,) = stored(CouplingInputs, "coupling", "largest force not among the highest samples")
     check_resolution_of(inputs)
 

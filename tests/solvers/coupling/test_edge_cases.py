@@ -1,4 +1,4 @@
-"""Zeros, refusals and random inputs: every answer is finite or a stated reason."""
+"""For zeros, values out of range and random inputs, the answer is finite or states a reason."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -236,7 +236,7 @@ def test_a_friction_table_of_one_point_is_a_constant() -> None:
 
 @st.composite
 def any_inputs(draw: st.DrawFn) -> CouplingInputs:
-    """Valid inputs over orders of magnitude, zeros among them."""
+    """Draw valid inputs over several orders of magnitude. Some of the values are zero."""
 
     def spread(low: float, high: float) -> float:
         return float(np.exp(draw(st.floats(np.log(low), np.log(high)))))
@@ -279,7 +279,7 @@ def any_inputs(draw: st.DrawFn) -> CouplingInputs:
 
 
 def answered(calculation: Callable[[], object], reasons: set[str]) -> object | None:
-    """What the calculation answers, None where it refuses or fails for one of the reasons."""
+    """Return the answer of the calculation, or None if the calculation refuses or fails for one of `reasons`."""
     try:
         result = calculation()
     except SolverError as error:
@@ -315,7 +315,7 @@ def test_every_floating_sleeve_is_balanced(inputs: CouplingInputs) -> None:
 
 @st.composite
 def sleeves_in_equilibrium(draw: st.DrawFn) -> CouplingInputs:
-    """Two meshes whose friction leaves the sleeve an equilibrium."""
+    """Draw a coupling with two meshes whose friction is low enough for an equilibrium of the sleeve."""
     teeth, friction = draw(st.integers(6, 100)), draw(st.floats(0.01, 0.3))
     errors = draw(st.sampled_from([0.0, 1e-6, 1e-5]))
     return pahl_coupling(

@@ -1,4 +1,4 @@
-"""Inlet factor and friction law against direct integration, limits and continuity."""
+"""The inlet factor agrees with direct integration and with its limits, and the friction law is continuous."""
 
 from math import exp, inf, radians
 
@@ -27,7 +27,11 @@ LOWEST = 0.05  # of the default curve of mixed friction
 
 
 def integrated_load(inlet: float) -> float:
-    """W from dp/dX = (H - H_m)/H^3, H = 1 + X^2, p = 0 at -inlet and p = dp/dX = 0 at the exit: W = -int X dp."""
+    """Return the load W = -int X dp of a film by direct integration.
+
+    The film thickness is H = 1 + X^2, and the pressure p follows from dp/dX = (H - H_m)/H^3. The pressure is 0 at
+    X = -inlet. At the exit, p and dp/dX are 0.
+    """
 
     def pressure_at_exit(exit_place: float) -> float:
         film = 1.0 + exit_place**2

@@ -1,4 +1,4 @@
-"""Programs written for the minor version before still run."""
+"""Programs that were written for the previous minor version still run."""
 
 from math import radians
 

@@ -1,4 +1,4 @@
-"""What must not change the answer, and what must scale it."""
+"""Some changes of the inputs must not change the answer, and other changes must only scale the answer."""
 
 from math import pi, tan
 

@@ -1,4 +1,4 @@
-"""The recommended crowning: it meets its constraints, sits on them or cannot be improved."""
+"""The recommended crowning meets its constraints, and no other feasible crowning is better."""
 
 from functools import partial
 from math import radians

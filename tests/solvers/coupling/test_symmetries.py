@@ -1,4 +1,4 @@
-"""Mirror images of random couplings of users' kind: every number of the answer, not those that one thinks of."""
+"""Random couplings like those of users are compared with their mirror images in every number of the answer."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -29,9 +29,10 @@ def unlike(
     expected: Expected,
     answer: Callable[[CouplingInputs], object] = solve,
 ) -> list[str]:
-    """What differs between a coupling and its image.
+    """Return the names of the values that differ between a coupling and its image.
 
-    The overturning moment is what friction of opposite teeth leaves of that of all.
+    The overturning moment is a small difference of large friction moments of opposite teeth. Its tolerance is
+    therefore a share of the largest possible moment of friction.
     """
     one, other = answer(inputs), answer(image)
     if isinstance(one, CouplingResult) and isinstance(other, CouplingResult):
@@ -45,7 +46,7 @@ def unlike(
 
 @seeds(25, 1000)
 def test_a_coupling_that_tilts_the_other_way(random: np.random.Generator) -> None:
-    """With its rotor half a turn further it is the same coupling seen from behind."""
+    """A coupling with opposite tilt and rotor half a turn further is the same coupling, seen from the other side."""
     inputs = random_inputs(random)
     image = scaled(inputs, -1.0, "operation.misalignment")
     image = changed(image, {"model.rotor_angle": inputs.model.rotor_angle + pi})
@@ -70,7 +71,10 @@ def test_a_coupling_that_turns_the_other_way(random: np.random.Generator) -> Non
 
 @seeds(25, 1000)
 def test_a_hub_that_moves_the_other_way(random: np.random.Generator) -> None:
-    """Its thrust turns, and the bounds of the thrust change places; two meshes would also pull by themselves."""
+    """If a hub moves the other way, its thrust changes sign; the bounds of the thrust change sign and exchange places.
+
+    The test takes couplings with one mesh, because two meshes cause a thrust even without axial motion.
+    """
     inputs = random_inputs(random, single=True)
 
     def expected(name: str, values: FloatArray, _: str | None) -> FloatArray:
@@ -94,7 +98,7 @@ def _exchanged(thrust: AxialThrust) -> AxialThrust:
 
 @seeds(25, 1000)
 def test_hubs_that_are_tilted_alike_may_be_exchanged_for_hubs_that_turn_back(random: np.random.Generator) -> None:
-    """Seen from the other end of the sleeve the speed is the other, and so is the tilt of two hubs that tilt alike."""
+    """Seen from the other end of the sleeve, two hubs that tilt alike have the opposite speed and the opposite tilt."""
     inputs = changed(random_inputs(random), {"operation.arrangement": "parallel_offset"})
     image = scaled(inputs, -1.0, "operation.speed", "operation.misalignment")
 
@@ -107,7 +111,7 @@ def test_hubs_that_are_tilted_alike_may_be_exchanged_for_hubs_that_turn_back(ran
 
 @seeds(25, 1000)
 def test_tooth_numbers_may_start_anywhere(random: np.random.Generator) -> None:
-    """The tooth with number 0 is a choice; what is told per tooth moves with the numbers."""
+    """Any tooth may have the number 0; the values that belong to a tooth move with its number."""
     inputs = random_inputs(random, errors=True)
     teeth = inputs.coupling.teeth
     steps = int(random.integers(1, teeth))
@@ -128,7 +132,7 @@ def test_tooth_numbers_may_start_anywhere(random: np.random.Generator) -> None:
 
 @seeds(4, 100)
 def test_an_orbit_begins_where_the_rotor_is_said_to_stand(random: np.random.Generator) -> None:
-    """The same sleeve under the other sense of rotation: the path is gone through as often, and by the same forces."""
+    """The opposite sense of rotation gives the same orbit, because the inertia forces stay the same."""
     inputs = random_inputs(random, errors=True, single=True)
     image = scaled(inputs, -1.0, "operation.speed")
     assert not differences(solve_orbit(inputs), solve_orbit(image), unchanged)

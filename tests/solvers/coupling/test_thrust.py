@@ -1,4 +1,4 @@
-"""Thrust, sleeve equilibrium, friction power and moments against limits, closed forms and an independent solution."""
+"""Thrust, sleeve equilibrium, friction power and moments agree with limits, closed forms and independent solutions."""
 
 from math import asin, cos, hypot, pi, radians, sin, sqrt, tan
 
@@ -24,7 +24,10 @@ STIFFNESS = 2.8e8
 
 
 def six_equations(inputs: CouplingInputs, friction: float, velocity: float, angle: float) -> tuple[float, float]:
-    """Thrust on the left and on the right shaft at one rotor angle, by a general root finder, lengths in um."""
+    """Return the thrust [N] on the left and on the right shaft at one rotor angle.
+
+    A general root finder solves the six equations, with lengths in um.
+    """
     right_tilt = 1 if inputs.operation.arrangement == "parallel_offset" else -1
     meshes = PlainMesh(inputs), PlainMesh(inputs, side=-1, tilt=right_tilt)
     phi = meshes[0].angles(np.array([angle]))[0]

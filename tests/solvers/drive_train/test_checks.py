@@ -1,4 +1,4 @@
-"""What no drive train can be made of, by code and field; and what a drive train says of itself."""
+"""Impossible drive trains are refused with a code and a field, and unusual drive trains are warned of."""
 
 from dataclasses import replace
 
@@ -79,7 +79,7 @@ def test_a_film_too_thin_to_exist() -> None:
 
 
 def fields(inputs: DriveTrainInputs) -> dict[str, str | None]:
-    """The fields of the notices, by code."""
+    """Return the field of every warning by the code of the warning."""
     return {notice.code: notice.field for notice in solve(inputs).warnings}
 
 

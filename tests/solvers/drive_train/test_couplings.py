@@ -1,4 +1,4 @@
-"""Moments and forces of a coupling on its shaft: friction dissipates, the sleeve is in balance, hubs stick."""
+"""In a coupling on a shaft, friction dissipates energy, the sleeve is in balance, and hubs can stick."""
 
 import itertools
 from dataclasses import replace
@@ -31,7 +31,7 @@ def port(coupling: UnitCoupling = COUPLING, law: str = "elastic_plastic", rotati
 
 
 def vector(conjugate: FloatArray) -> FloatArray:
-    """M (X, Y, 0) of m = -Z x M."""
+    """Return the moment vector M (X, Y, 0) that belongs to the moments m = -Z x M; m is conjugate to the slopes."""
     return np.array([-conjugate[1], conjugate[0], 0.0])
 
 
@@ -56,7 +56,10 @@ def test_derivative_of_the_loads(law: str, shaft: str, scale: float) -> None:
 @pytest.mark.parametrize("shaft", ["pinion", "wheel"])
 @pytest.mark.parametrize("machine_side", ["minus", "plus"])
 def test_sleeve_is_in_balance_and_friction_dissipates(law: str, rotation: float, shaft: str, machine_side: str) -> None:
-    """Forces of both hubs on the sleeve hold the moments there; M_f turns against the sliding, M_s straightens."""
+    """The forces of the hubs on the sleeve balance the moments of the hubs on the sleeve.
+
+    The loss moment of friction acts against the sliding, and the straightening moment acts against the tilt.
+    """
     own = port(replace(COUPLING, shaft=shaft, machine_side=machine_side), law, rotation)
     loads, _ = coupling_loads(own, TILTS)
     force_on_sleeve = -np.array([loads[0], loads[1], 0.0])
@@ -83,7 +86,11 @@ def test_sleeve_is_in_balance_and_friction_dissipates(law: str, rotation: float,
 
 
 def jenkins(ratio: float) -> tuple[float, float]:
-    """Loss and elastic moment over full sliding's: a spring that slides at its limit, stepped through one turn."""
+    """Return the loss moment and the elastic moment of a spring that slides at a limit force.
+
+    The spring is stepped through two cycles with the amplitude `ratio` times the stretch at the limit force. The second
+    cycle gives both moments, divided by the loss moment of full sliding.
+    """
     steps, stretch, forces = 20000, 0.0, []
     angle = 2 * pi * np.arange(2 * steps) / steps
     place = ratio * np.cos(angle)
@@ -102,7 +109,11 @@ def test_first_harmonic_of_the_stepped_hysteresis(ratio: float) -> None:
 
 
 def test_limits_of_the_yielding_teeth() -> None:
-    """A long slide loses as Coulomb does and keeps 4/(3 sqrt beta); a short one is z r_o^2 c_a delta/2."""
+    """For a large ratio beta of the tilt to the sliding limit, the loss moment is the friction moment of full sliding.
+
+    The elastic moment is then 4/(3 sqrt beta) of the same friction moment. Below the sliding limit there is no loss
+    moment, and the elastic moment is z r_o^2 c_a delta/2.
+    """
     loss, elastic = elastic_plastic(1e6)
     assert loss == pytest.approx(1.0, abs=2e-6)
     assert elastic == pytest.approx(4 / 3 / 1e3, rel=1e-3)

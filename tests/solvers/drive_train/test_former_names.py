@@ -1,4 +1,4 @@
-"""Programs that describe a bearing as in the minor version before still run."""
+"""Programs that describe a bearing as in the previous minor version still run."""
 
 import pytest
 

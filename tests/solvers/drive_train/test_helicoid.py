@@ -1,7 +1,7 @@
-"""Directions of the mesh force and thermal growth against involute helicoids built point by point.
+"""Mesh force and thermal growth agree with involute helicoids that are built point by point.
 
-A flank is the curve that the end of a taut string draws as it leaves the base circle, turned along Z; nothing here uses
-the line of action's formulas but the line itself.
+A taut string unwinds from the base circle, and its end draws a curve. A flank is this curve, moved along Z and turned
+about Z. The flanks use the line of action itself, but no formula for the growth along this line.
 """
 
 from collections.abc import Callable
@@ -38,9 +38,10 @@ def turned(vector: FloatArray, angle: float) -> FloatArray:
 
 
 def helicoid(centre: FloatArray, foot: FloatArray, end: FloatArray, twist: float) -> Surface:
-    """The flank through `end` of a string that leaves the base circle around `centre` at `foot`; `twist` [1/m] along Z.
+    """Return the flank through `end` that the end of a taut string draws, as a function of unwound angle and Z.
 
-    Unwound by an angle further on, the string is shorter or longer by the arc.
+    The string leaves the base circle around `centre` at `foot`. If the string unwinds further by an angle, its length
+    changes by the arc. `twist` [rad/m] turns the curve along Z.
     """
     arm, string = foot - centre, end - foot
     radius, length = np.linalg.norm(arm), np.linalg.norm(string)
@@ -55,7 +56,10 @@ def helicoid(centre: FloatArray, foot: FloatArray, end: FloatArray, twist: float
 
 
 def flanks(standing: Arrangement, reach: float) -> tuple[FloatArray, Surface, Surface]:
-    """Direction of the path of contact, and both flanks that touch at the pinion's roll length at the end y = 0."""
+    """Return the direction of the path of contact, and the flanks of pinion and wheel.
+
+    At the end y = 0 of the face, both flanks touch at the pinion's roll length `reach` [m].
+    """
     pair, own = PATH.pair, frame(standing, PATH)
     onward = -own.transverse_force
     point = own.arms[0] + (reach - PATH.pitch_point) * onward
@@ -69,7 +73,10 @@ def flanks(standing: Arrangement, reach: float) -> tuple[FloatArray, Surface, Su
 
 
 def beyond(surface: Surface, origin: FloatArray, onward: FloatArray, along: float, growth: float = 0.0) -> float:
-    """How far a flank that has grown around `origin` lies along the path of contact from where it began, at `along`."""
+    """Return the distance along the path of contact from the cold flank at Z = 0 to the grown flank at Z = `along`.
+
+    The flank grows around `origin` by the share `growth`.
+    """
     began = surface(0.0, 0.0)
 
     def miss(unknown: FloatArray) -> FloatArray:
@@ -95,7 +102,7 @@ def test_the_force_is_normal_to_the_flanks(standing: Arrangement, share: float) 
 
 @pytest.mark.parametrize("standing", STANDINGS)
 def test_the_face_begins_at_the_end_that_is_ahead(standing: Arrangement) -> None:
-    """Both flanks run back along the path of contact by y tan beta_b, and stay in touch."""
+    """At the distance y from the end that meshes first, both flanks lie back by y tan beta_b and still touch."""
     own = frame(standing, PATH)
     onward, pinion, wheel = flanks(standing, PATH.pitch_point)
     centre = PATH.pair.centre_distance * own.radial
@@ -110,7 +117,11 @@ def test_the_face_begins_at_the_end_that_is_ahead(standing: Arrangement) -> None
 def test_growth_by_heat_closes_the_gap_that_the_thermal_lead_says(
     standing: Arrangement, rises: tuple[float, float]
 ) -> None:
-    """Both bodies grow around their axes and the plane y = 0; to first order in the growth."""
+    """Each gear body grows around its axis and around the plane y = 0.
+
+    To first order in the growth, thermal lead and profile slope together equal the gap between the flanks, up to a
+    constant.
+    """
     heat = Heat(0.0, pinion_bulk=300.0 + rises[0], wheel_bulk=300.0 + rises[1], reference=300.0)
     y = np.linspace(0.0, PATH.plane.face_width, 11)
     found = thermal_lead(replace(UNIT, heat=heat, arrangement=standing), PATH, y)

@@ -1,4 +1,4 @@
-"""What a drive train says of scuffing is what the pair alone would be told."""
+"""The scuffing safety in a drive train is that of the pair alone, or missing if unsolved points may change it."""
 
 from dataclasses import replace
 
@@ -21,7 +21,7 @@ COARSE = ehl.Model(nodes=61, film_nodes=11, refine_mesh=False)
 
 
 def heat_of(inputs: ScuffingInputs) -> FlankHeat:
-    """Of a pair without shafts that bend or heat that spreads."""
+    """Return the temperatures and safety factors of a pair in a drive train with rigid shafts and no thermal lead."""
     thermal = no_heat(np.linspace(0.0, inputs.distribution.gears.face_width, 11))
     distribution = solve(inputs.distribution)
     flash = map_flash(inputs.distribution, distribution)
@@ -29,7 +29,10 @@ def heat_of(inputs: ScuffingInputs) -> FlankHeat:
 
 
 def test_a_point_too_light_to_matter_keeps_the_verdict() -> None:
-    """Some points carry next to nothing: refused, but shown to be no hotter than the hottest."""
+    """Some points carry almost no load and stay unsolved.
+
+    Bounds show that these points are not hotter than the hottest solved point.
+    """
     inputs = replace(relieved_pair(200), film=COARSE)
     alone, heat = solve_scuffing(inputs), heat_of(inputs)
     assert heat.unsolved_points > 0
@@ -38,7 +41,7 @@ def test_a_point_too_light_to_matter_keeps_the_verdict() -> None:
 
 
 def test_points_that_may_decide_take_it() -> None:
-    """At 80 Pa s most of the path is not solved."""
+    """At a viscosity of 80 Pa s, unsolved points may be the hottest. No safety factor by thermal EHL is then stated."""
     inputs = relieved_pair(8)
     inputs = replace(inputs, lubricant=replace(inputs.lubricant, viscosity=80.0), film=COARSE)
     heat = heat_of(inputs)

@@ -1,4 +1,4 @@
-"""Bearing films against the integrated pressure, shafts against closed forms, the face's load on its own gap."""
+"""Bearing films agree with the integrated pressure, and shafts and gaps agree with closed forms and strain energy."""
 
 import itertools
 from dataclasses import replace
@@ -34,7 +34,10 @@ SPEED = 1000.0
 
 
 def force_of(displacement: np.ndarray, rotation: float) -> np.ndarray:
-    """The film's force on the shaft at a displacement, by its closed form in the displacement's own directions."""
+    """Return the force of the film on the shaft at a displacement.
+
+    The closed form gives the components along and across the displacement.
+    """
     eccentricity = hypot(*displacement) / JOURNAL.clearance
     radial, rest = displacement / hypot(*displacement), 1 - eccentricity**2
     tangential = rotation * np.array([-radial[1], radial[0]])
@@ -53,7 +56,7 @@ def test_the_film_answers_its_load(load: tuple[float, float], rotation: float) -
 
 @pytest.mark.parametrize("eccentricity", [0.05, 0.3, 0.6, 0.9])
 def test_closed_form_is_the_integrated_pressure(eccentricity: float) -> None:
-    """p = 3 eta omega h' (z^2 - L^2/4)/h^3 where it is positive, integrated over the film."""
+    """The closed form is the integral of p = 3 eta omega h' (z^2 - L^2/4)/h^3 over the film where p is positive."""
     theta, weight = np.polynomial.legendre.leggauss(400)
     theta, weight = pi / 2 * (theta + 1), weight * pi / 2
     clearance, radius, width = JOURNAL.clearance, JOURNAL.diameter / 2, JOURNAL.width
@@ -128,7 +131,10 @@ def beam(*sections: tuple[float, float], bearings: tuple[float, float]) -> Shaft
 
 
 def bend(shaft: Shaft, *loads: tuple[float, float, float], at: float) -> tuple[float, float]:
-    """Deflection and slope at a place under loads (place, force, moment)."""
+    """Return the deflection [m] and the slope [rad] of a shaft at the place `at` [m].
+
+    Every load consists of place [m], force [N] and moment [N m].
+    """
     model = shaft_model(shaft, 0.0, np.array([at, *(load[0] for load in loads)]))
     nodal = np.zeros(2 * model.z.size)
     for place, force, moment in loads:
@@ -139,7 +145,7 @@ def bend(shaft: Shaft, *loads: tuple[float, float, float], at: float) -> tuple[f
 
 
 def test_stepped_beam_under_a_central_load() -> None:
-    """P/6E [a^3/I1 + (L^3/8 - a^3)/I2] of a beam thicker in its middle, symmetric."""
+    """A central load P deflects a symmetric beam with a thicker middle by P/(6 E) [a^3/I1 + (L^3/8 - a^3)/I2]."""
     a, length, force = 0.15, 0.8, 1e4
     shaft = beam((a, 0.1 * SLENDER), (length - 2 * a, 0.14 * SLENDER), (a, 0.1 * SLENDER), bearings=(0.0, length))
     thin, thick = (second_moment(section) for section in shaft.sections[:2])
@@ -148,7 +154,10 @@ def test_stepped_beam_under_a_central_load() -> None:
 
 
 def test_stepped_beam_under_a_load_off_its_middle() -> None:
-    """Mohr's integral of M m / E I, by quadrature over every stretch."""
+    """The deflection equals Mohr's integral of M m/(E I), computed by quadrature over every stretch of the beam.
+
+    M is the bending moment of the load, and m is the bending moment of a unit load at the place of the deflection.
+    """
     lengths, diameters, load, at = (0.2, 0.35, 0.25), (0.09 * SLENDER, 0.13 * SLENDER, 0.1 * SLENDER), 0.3, 0.62
     shaft = beam(*zip(lengths, diameters, strict=True), bearings=(0.0, 0.8))
 
@@ -166,7 +175,10 @@ def test_stepped_beam_under_a_load_off_its_middle() -> None:
 
 
 def test_moment_on_an_overhang() -> None:
-    """Deflection M c l / 3 E I + M c^2 / 2 E I at the end, slope M l / 3 E I + M c / E I."""
+    """A moment M acts at the end of an overhang c beside a span l.
+
+    The end deflects by M c l/(3 E I) + M c^2/(2 E I) and turns by M l/(3 E I) + M c/(E I).
+    """
     span, overhang, moment = 0.5, 0.2, 800.0
     shaft = beam((span + overhang, 0.1 * SLENDER), bearings=(0.0, span))
     stiffness = E * second_moment(shaft.sections[0])
@@ -177,7 +189,11 @@ def test_moment_on_an_overhang() -> None:
 
 
 def test_shear_of_timoshenko() -> None:
-    """P L^3/48 E I + P L/4 kappa G A; an overhang's end by a force F c^2 (l + c)/3 E I + F c (1 + c/l)/kappa G A."""
+    """A central load P deflects the middle of a span L by P L^3/(48 E I) + P L/(4 kappa G A).
+
+    A force F at the end of an overhang c beside a span l deflects this end by
+    F c^2 (l + c)/(3 E I) + F c (1 + c/l)/(kappa G A).
+    """
     span, overhang, force = 0.5, 0.2, 5e4
     section = ShaftSection(span + overhang, 0.16, 0.06)
     shaft = Shaft((section,), (RigidBearing(0.0), RigidBearing(span)), torque_position=0.0)
@@ -190,14 +206,17 @@ def test_shear_of_timoshenko() -> None:
 
 
 def test_section_properties() -> None:
-    """Cowper: 6(1 + nu)/(7 + 6 nu) of a solid circle, 2(1 + nu)/(4 + 3 nu) of a thin tube; I of a tube."""
+    """By Cowper, kappa is 6(1 + nu)/(7 + 6 nu) for a solid circle and 2(1 + nu)/(4 + 3 nu) for a thin tube.
+
+    The test also checks the second moment of area I of a tube.
+    """
     assert shear_coefficient(0.3, 0.0) == pytest.approx(7.8 / 8.8)
     assert shear_coefficient(0.3, 1.0) == pytest.approx(2.6 / 4.9)
     assert second_moment(ShaftSection(1.0, 0.2, 0.1)) == pytest.approx(pi / 64 * (0.2**4 - 0.1**4))
 
 
 def test_tilt_of_a_load_off_the_middle() -> None:
-    """Slope F a c (a - c)/(3 E I l)."""
+    """A force F at the distances a and c from the bearings of a span l causes the slope F a c (a - c)/(3 E I l)."""
     span, a, force = 0.6, 0.37, 1e4
     shaft = beam((span, 0.12 * SLENDER), bearings=(0.0, span))
     c = span - a
@@ -207,7 +226,10 @@ def test_tilt_of_a_load_off_the_middle() -> None:
 
 
 def test_a_sections_cut_changes_nothing() -> None:
-    """Weight as consistent nodal loads leaves deflections as they are, wherever a section is cut."""
+    """The deflections under the weight do not depend on where a section is cut.
+
+    The reason is that the weight is applied as consistent nodal loads.
+    """
     whole = beam((0.5, 0.1), (0.4, 0.14), bearings=(0.1, 0.8))
     cut = beam((0.2, 0.1), (0.3, 0.1), (0.4 - 0.123, 0.14), (0.123, 0.14), bearings=(0.1, 0.8))
     places = np.array([0.0, 0.3, 0.6, 0.9])
@@ -223,7 +245,7 @@ def test_a_sections_cut_changes_nothing() -> None:
 
 
 def test_uniform_load_by_consistent_forces() -> None:
-    """5 q L^4/384 E I + q L^2/8 kappa G A in the middle."""
+    """A uniform load q deflects the middle of a span L by 5 q L^4/(384 E I) + q L^2/(8 kappa G A)."""
     shaft = beam((1.0, 0.1), bearings=(0.0, 1.0))
     model = shaft_model(shaft, 0.0, np.array([0.5]))
     load = GRAVITY * 7850 * area(shaft.sections[0])
@@ -241,7 +263,10 @@ def unit_of(inputs: DriveTrainInputs) -> Unit:
 
 
 def test_twist_under_a_uniform_load() -> None:
-    """T/(G J)(y - y^2/2b) from the end where torque enters; along the line of action F_bt b r_b^2/(2 G J) over all."""
+    """At the distance y from the end where the torque T enters, the twist angle is T/(G J)(y - y^2/(2 b)).
+
+    Along the line of action, both ends of the face differ by F_bt b r_b^2/(2 G J).
+    """
     bearings = RigidBearing(0.32), RigidBearing(0.52)
     shaft = Shaft((ShaftSection(0.2, 0.234),), bearings, start=0.32, torque_position=0.32)
     inputs = replace(turbo_gear(), pinion_shaft=shaft, couplings=())
@@ -270,7 +295,10 @@ def test_influence_is_symmetric_and_twice_the_strain_energy(hand: str) -> None:
 
 
 def _strain_energy(system: Unit, force: FloatArray) -> float:
-    """int M^2/2EI + V^2/2kGA + T^2/2GJ over both shafts, from cut-off pieces of shaft."""
+    """Return the integral of M^2/(2 E I) + V^2/(2 kappa G A) + T^2/(2 G J) over both shafts [N m].
+
+    Moments and forces at a cut follow from the equilibrium of the piece of shaft beside the cut.
+    """
     energy = 0.0
     for side in system.shafts:
         z, nodal = side.model.z, side.loads[:, :, :41] @ force

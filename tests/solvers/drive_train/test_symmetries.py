@@ -1,4 +1,4 @@
-"""A unit turned, in a mirror, driven from its other gear, or rigid: every number of the answer, on random units."""
+"""Random units are turned, mirrored, driven from the other gear or made rigid, and every number is compared."""
 
 import re
 from dataclasses import replace
@@ -40,7 +40,7 @@ def is_spur(inputs: DriveTrainInputs) -> bool:
 
 @st.composite
 def warm_units(draw: st.DrawFn) -> DriveTrainInputs:
-    """Units that pump on the gears they have, and are warmed by that."""
+    """Draw units whose pumping uses their own gears, and whose teeth become warm by pumping."""
     inputs = draw(units())
     gears = replace(inputs.mesh.distribution.gears, rack_tip_radius=0.25)
     pumping = replace(inputs.pumping, gears=gears, model=PumpingModel(slices=12))
@@ -49,7 +49,7 @@ def warm_units(draw: st.DrawFn) -> DriveTrainInputs:
 
 
 def turned_face(name: str, values: FloatArray) -> FloatArray:
-    """What is counted from one end of the face, counted from the other."""
+    """Return a value of the answer as it must be if the face is counted from its other end."""
     if re.search(SLOPE, name):
         return -values
     if re.search(FACE_CURVE, name):
@@ -60,7 +60,10 @@ def turned_face(name: str, values: FloatArray) -> FloatArray:
 
 
 def image_of(one: DriveTrainResult, plane: FloatArray, axis: float, *, face_turned: bool) -> Expected:
-    """Return the expected image of an answer: vectors are multiplied by a matrix in X and Y, and by 1 or -1 in Z."""
+    """Return a function that gives the expected image of every value of an answer.
+
+    Vectors are multiplied by the matrix `plane` in X and Y, and by `axis` (1 or -1) in Z.
+    """
     before = leaves(one)
     handed = np.linalg.det(plane) * axis  # moments and angles are no vectors: a mirror turns them once more
 
@@ -118,7 +121,10 @@ def test_a_unit_in_a_mirror_before_its_end(inputs: DriveTrainInputs) -> None:
 
 
 def without_sense_of_rotation(inputs: DriveTrainInputs) -> DriveTrainInputs:
-    """The unit without what knows which way it turns: films, and the friction of couplings."""
+    """Return the unit without the parts that depend on the sense of rotation.
+
+    Linear bearings replace the bearing films, and couplings are left out.
+    """
 
     def bearing(one: Bearing) -> Bearing:
         if isinstance(one, JournalBearing):
@@ -130,7 +136,7 @@ def without_sense_of_rotation(inputs: DriveTrainInputs) -> DriveTrainInputs:
 
 
 def driven_from_the_wheel(inputs: DriveTrainInputs) -> DriveTrainInputs:
-    """The same flanks under the same force, with the power going the other way."""
+    """Return the unit with exchanged gears: flanks and tooth force are the same, but the former wheel drives."""
     mesh, own = inputs.mesh.distribution, inputs.arrangement
     gears, load, shape = mesh.gears, mesh.load, mesh.modifications
     ratio = gears.wheel.teeth / gears.pinion.teeth

@@ -1,4 +1,4 @@
-"""Main results and uncertain inputs of the worked example: derivatives by differences, the values of its corners."""
+"""The worked example has the expected derivatives of its main results and the expected uncertain inputs."""
 
 from dataclasses import replace
 from math import prod
@@ -23,7 +23,10 @@ STEP = 1e-3  # of a tolerance
 
 
 class Derivative(NamedTuple):
-    """Changes of K_H_beta and of the safety over the flank by one tolerance, and whether the maximum of K moves."""
+    """Changes of K_H_beta and of the safety factor at the hottest place, if an input changes by one tolerance.
+
+    `kink` is True if the largest load changes by different amounts for a step up and a step down.
+    """
 
     face_load_factor: float
     safety: float
@@ -31,9 +34,10 @@ class Derivative(NamedTuple):
 
 
 def derivative(inputs: DriveTrainInputs, name: str, tolerance: float) -> Derivative:
-    """Central differences at the places of the maxima of the unchanged unit (envelope theorem).
+    """Compute central differences at the places where the unchanged unit has its maxima (envelope theorem).
 
-    There they are free of the jumps of a maximum between points of the face; `kink` compares those of the free maxima.
+    At fixed places, the differences have no jumps due to a maximum that moves between points of the face. Only `kink`
+    compares the largest loads wherever they are.
     """
     base = outcome(inputs)
     place = int(np.argmax(base.shares))
@@ -79,7 +83,10 @@ def test_derivatives_of_the_corrected_unit(name: str, tolerance: float, factor: 
 
 
 def test_viscosity_of_all_films_and_the_offset() -> None:
-    """+2 mPa s: -0.0035, +0.0061; the machine 100 um higher: +0.001, -0.001 to -0.002."""
+    """If the viscosity of all films rises by 2 mPa s, K_H_beta changes by -0.0035 and the safety factor by +0.0061.
+
+    If the machine stands 100 um higher, K_H_beta changes by +0.001.
+    """
     inputs = turbo_gear(GROUND)
     names = [f"{shaft}.bearings.{k}.viscosity" for shaft in ("pinion_shaft", "wheel_shaft") for k in (0, 1)]
     found = [derivative(inputs, name, 2e-3) for name in names]
@@ -89,7 +96,11 @@ def test_viscosity_of_all_films_and_the_offset() -> None:
 
 
 def test_an_edge_maximum_is_smooth() -> None:
-    """Row 5: the same dK/dmu with steps of a thousandth from 1e-2 to 1e-6, and that of the free maximum."""
+    """The unit without lead correction (row 5) has its largest load at the edge of the face.
+
+    The derivative of this load with respect to the coefficient of friction is the same for steps of 1e-3, 1e-5 and
+    1e-7. K_H_beta has the same derivative.
+    """
     name = "couplings.0.friction.coefficient"
     slopes = [derivative(turbo_gear(), name, change).face_load_factor / change for change in (1.0, 1e-2, 1e-4)]
     assert slopes == pytest.approx([slopes[0]] * 3, rel=1e-4)
@@ -98,7 +109,10 @@ def test_an_edge_maximum_is_smooth() -> None:
 
 
 def test_gap_at_a_station_moves_the_load_as_the_derivative_says() -> None:
-    """Change of the load at the end of the face, over its mean, by a gap at one of eleven stations."""
+    """A gap at one of eleven stations changes the load at the end of the face as the derivative states.
+
+    The load is divided by its mean over the face.
+    """
     resolution = Resolution(roll_positions=48, slices=40, profile_points=61, face_points=61, feature_points=5)
     inputs = changed(turbo_gear(), {"face_stations": 11, "mesh.distribution.resolution": resolution})
     prepared = prepare(inputs)

@@ -1,4 +1,4 @@
-"""One gear pair, one verdict: what every model refuses, accepts and says of a pair."""
+"""All models share one verdict on a gear pair: whether the pair is refused, and what the notices say."""
 
 from dataclasses import replace
 from math import radians

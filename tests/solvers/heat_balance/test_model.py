@@ -1,4 +1,4 @@
-"""The heat balance of what a user gives: flow, windage, calibration, band, warnings."""
+"""From the inputs of a user, the heat balance computes flow, windage, calibration, band and warnings."""
 
 from dataclasses import replace
 from math import cos, pi, radians

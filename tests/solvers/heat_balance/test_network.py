@@ -1,4 +1,4 @@
-"""The network of the heat balance: worked example, conservation, uniqueness, limits that are known exactly."""
+"""The network of the heat balance agrees with worked examples and exact limits, and has only one solution."""
 
 from dataclasses import replace
 from math import pi
@@ -30,12 +30,12 @@ def celsius(network: Network) -> FloatArray:
 
 
 def plain(network: Network) -> Network:
-    """Neither recovery nor acceleration of the oil."""
+    """Return the network without air friction at the tooth tips, and with jets that are as fast as the teeth."""
     return changed(network, {"recovery": 0.0, "spray.jet": network.spray.velocity})
 
 
 def constant(network: Network) -> Network:
-    """Return an oil whose viscosity does not depend on temperature."""
+    """Return the network with an oil whose viscosity does not depend on temperature."""
     return changed(network, {"oil.viscosity": lambda _: 0.02})
 
 
@@ -136,7 +136,7 @@ def test_minus_the_jacobian_is_an_m_matrix(name: str) -> None:
 
 
 def test_a_loss_that_outgrows_its_cooling_is_a_runaway() -> None:
-    """Friction that grows tenfold every four kelvin has no equilibrium; what is left over is told."""
+    """Friction that grows tenfold every four kelvin has no equilibrium; the error states the remaining residual [W]."""
     heating = replace(PAIR.mesh, viscosity_exponent=-20.0, temperature=OIL.inlet)
     failure = unsolved(equilibrium, replace(PAIR, mesh=heating))
     assert failure.code == "heat_balance"
@@ -144,7 +144,10 @@ def test_a_loss_that_outgrows_its_cooling_is_a_runaway() -> None:
 
 
 def test_an_equilibrium_that_runs_away_is_refused() -> None:
-    """From a start beyond it: the upper of two equilibria of a loss that grows with temperature."""
+    """A loss that grows with temperature has two equilibria, and the upper equilibrium is not stable.
+
+    Some hot starts reach the upper equilibrium, which is then refused.
+    """
     heating = replace(PAIR.mesh, viscosity_exponent=-3.0, temperature=OIL.inlet, power=1000.0)
     network = changed(plain(PAIR), {"mesh": heating, "windage": 0.0})
     assert equilibrium(network).rises[0] < 5.0
@@ -190,7 +193,7 @@ def test_a_symmetric_pair_has_equal_temperatures() -> None:
 
 
 def test_a_very_large_flow_leaves_the_fling_off_resistance() -> None:
-    """Mist at the oil's temperature; flank and body then stand on the flooded film alone."""
+    """At a very large flow, the mist is as warm as the oil, and only the flooded film cools flanks and bodies."""
     network = changed(constant(plain(PAIR)), {"spray.flow": 1e5, "mist_convection_factor": 0.0})
     rises = equilibrium(network).rises
     assert rises[MIST] == pytest.approx(0.0, abs=1e-4)
@@ -241,7 +244,7 @@ def test_direction_of_every_change(name: str) -> None:
 
 
 def test_exchanged_gears_exchange_temperatures() -> None:
-    """An increaser: the pinion of the tables is the driven gear."""
+    """The pair with exchanged gears is an increaser, in which the smaller gear is the driven gear."""
     swapped = replace(
         CASED,
         gears=CASED.gears[::-1],
@@ -283,7 +286,10 @@ def test_no_oil_out_of_a_casing_is_colder_than_both_its_sources() -> None:
 
 
 def _converges(network: Network) -> bool:
-    """Whether there is an equilibrium; if so it is balanced, and the same from a hot start."""
+    """Return whether the network has an equilibrium.
+
+    If so, check that the equilibrium is balanced, and that a hot start gives the same equilibrium.
+    """
     try:
         rises = equilibrium(network).rises
     except NoSolution:

@@ -1,4 +1,4 @@
-"""Warm-up: one lump exactly, the worked example, and what the curves end at."""
+"""The warm-up agrees with the exact curve of one lump and with a worked example, and ends at the equilibrium."""
 
 import time
 from dataclasses import replace
@@ -28,7 +28,7 @@ CAPACITIES = Capacities((rotor(PINION), rotor(WHEEL)), (TOOTH_HALVES[0], TOOTH_H
 
 
 def test_one_lump_warms_exponentially() -> None:
-    """The mist alone, heated by windage and drained: 1 - exp(-t G/C)."""
+    """Windage heats the mist and drained oil cools it; the rise is 1 - exp(-t G/C) times the final rise."""
     network = changed(
         PAIR,
         {

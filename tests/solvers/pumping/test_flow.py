@@ -1,4 +1,4 @@
-"""Flow models: exact limits, conservation, positivity at any speed; grooves, helix, gaps and choking."""
+"""The flow models agree with exact limits, conserve mass and energy, and give positive pressures at any speed."""
 
 from dataclasses import replace
 from math import ceil, log2, pi, radians, tan
@@ -68,7 +68,10 @@ def test_power_grows_with_the_cube_of_a_low_speed(setup: PumpingSetup) -> None:
 
 @examples(4, 100, setups())
 def test_power_of_gas_dynamics_grows_with_the_cube_of_a_low_speed(setup: PumpingSetup) -> None:
-    """With 64 slices in the stroke at one time, for spaces whose coast side does not seal."""
+    """The exponent of the power is 3 if the coast side of the spaces does not seal and the grid is fine enough.
+
+    The grid has at least 64 slices in the stroke at the same time.
+    """
     assume(setup.normal_backlash > 0.01 * setup.gears.normal_module)
     space = prepare(setup).spaces[0]
     waves = space.lag * setup.gears.face_width / (space.table.limits.end - space.table.limits.start)
@@ -95,7 +98,10 @@ def test_coarse_grids_dissipate_at_low_speed() -> None:
 
 
 def low_speed_exponent(setup: PumpingSetup, model: PumpingModel, mach: float = 0.03) -> float:
-    """Logarithmic slope of the power between an axial Mach number and its double; the power is positive."""
+    """Return the exponent of the power as a function of speed, between an axial Mach number and about its double.
+
+    Check that the power is positive.
+    """
     setup = replace(setup, model=replace(model, spaces=Spaces.PINION))
     gears = setup.gears
     tried = 10.0 / (gears.normal_module * (gears.pinion.teeth / 2 + 1 + gears.pinion.profile_shift))

@@ -1,4 +1,4 @@
-"""Tooth-space geometry against constructions that share nothing with it."""
+"""The geometry of tooth spaces agrees with sampled polygons, mirror images and the envelope of the rack."""
 
 from dataclasses import replace
 
@@ -31,13 +31,13 @@ def polar(radius: FloatArray, angle: FloatArray) -> FloatArray:
 
 
 def involute_points(base: float, start: float, end: float, points: int) -> tuple[FloatArray, FloatArray]:
-    """Radii and polar angles from the base point of an involute."""
+    """Return radii and polar angles of points on an involute; the angles are measured from its base point."""
     roll = np.sqrt(np.linspace(start**2, end**2, points))
     return np.hypot(base, roll), roll / base - np.arctan(roll / base)
 
 
 def half_profile(space: ToothSpace, points: int) -> tuple[FloatArray, FloatArray]:
-    """Radii and half angles of a space from the middle of its bottom land to its tip corner."""
+    """Return radii and half angles of the profile of a space, from the middle of its bottom land to its tip corner."""
     root = space.root
     bottom = np.linspace(0, root.root_half_angle, 200)
     fillet = np.array([fillet_point(root.fillet, t) for t in np.linspace(0, root.fillet.end, 3 * points)])
@@ -52,17 +52,17 @@ def mate_flank(space: ToothSpace, points: int) -> tuple[FloatArray, FloatArray]:
 
 
 def closest(own: FloatArray, mate: FloatArray) -> tuple[float, int, int]:
-    """Distance of the closest pair of points, and its indices."""
+    """Return the distance between the two points that are closest to each other, and the indices of these points."""
     distance, nearest = map(np.asarray, cKDTree(own).query(mate))
     k = int(np.argmin(distance))
     return float(distance[k]), int(nearest[k]), k
 
 
 def sampled_section(space: ToothSpace, angle: float, points: int = 1500) -> tuple[float, float, float]:
-    """Area, left and right clearance from dense polygons.
+    """Return area, left clearance and right clearance of a section, computed from polygons with many points.
 
-    A side is as narrow as its closest pair of points. It closes where the involutes are closest if that is within
-    both, else at the closest pair of all.
+    The clearance of a side is the distance of the closest pair of points. The polygon is closed at the closest pair of
+    the involutes if this pair is inside both involutes. Otherwise it is closed at the closest pair of all points.
     """
     mate_angle = angle * space.ratio + space.offset
     own_r, own_psi = half_profile(space, points)
@@ -124,7 +124,7 @@ def test_contact_gap_has_one_minimum_and_continuous_sections(setup: PumpingSetup
 
 
 def continuous_sealed_table(space: ToothSpace, of_pinion: bool) -> StrokeTable:
-    """The table of a stroke whose area is continuous, and whose working flank seals as long as it touches."""
+    """Return the table of a stroke; check that its area is continuous and that the working flank seals in contact."""
     table = stroke_table(space, positions=1441)
     assert np.abs(np.diff(table.area)).max() < 0.02 * table.area.max()
     sealed = table.clearance_left if of_pinion else table.clearance_right
@@ -134,7 +134,7 @@ def continuous_sealed_table(space: ToothSpace, of_pinion: bool) -> StrokeTable:
 
 
 def shortened_paths(count: int) -> list[PathOfContact]:
-    """Pairs whose tips reach into a fillet or past a base circle."""
+    """Draw paths of contact that are shortened because tips reach into a fillet or past a base circle."""
     draw = np.random.default_rng(3)
     paths: list[PathOfContact] = []
     while len(paths) < count:

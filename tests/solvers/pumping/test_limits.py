@@ -1,4 +1,4 @@
-"""What pumping refuses, and what it warns of."""
+"""Pumping refuses inputs that cannot be solved, and warns of inputs outside the range of its models."""
 
 import re
 from dataclasses import replace
@@ -232,14 +232,17 @@ def test_a_result_is_finite_and_its_arrays_are_read_only() -> None:
 
 
 def test_a_helix_too_small_for_numbers_is_a_spur_gear() -> None:
-    """Found by generated requests: the meshing point's speed along the face was endless."""
+    """In a generated request, the speed of the meshing point along the face was once infinite."""
     result = solve(PumpingInputs(gears(helix_angle=2e-310, centre_distance=None), 1000.0))
     assert (result.total.axial_meshing_speed, result.total.axial_meshing_mach) == (None, None)
     assert "spur_gear" in codes(result)
 
 
 def test_a_speed_scan_takes_fewer_slices_where_it_would_not_end() -> None:
-    """Found by generated requests: a disk of a gear took more than half a minute for the figure of its choking."""
+    """A speed that would need too many steps gets fewer slices, or no value.
+
+    In a generated request, the choking figure of a disk-shaped gear once took more than half a minute.
+    """
     disk = GearPairInputs(GearTeeth(94), GearTeeth(408), 14e-3, 0.3e-3, rack_tip_radius=0.25)
     curves = speed_scan(PumpingSetup(disk), np.linspace(5_000, 60_000, 12) * pi / 30)
     solved = np.isfinite(curves.exit_mach)

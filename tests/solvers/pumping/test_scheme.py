@@ -1,4 +1,4 @@
-"""The scheme of the gas dynamics: order of convergence, exact fluxes, the nozzle law, books of a stage."""
+"""The scheme of the gas dynamics has its order of convergence, exact fluxes, and stages that balance."""
 
 import itertools
 from collections.abc import Callable
@@ -25,7 +25,10 @@ RANDOM = settings(max_examples=100, suppress_health_check=[HealthCheck.filter_to
 
 
 def smooth_march(cells: int, *, gap: float = 0.0, order: int = 2) -> tuple[Record, int]:
-    """A duct open at both ends whose section shrinks by half and grows again, with smooth start and end."""
+    """Return the record and the number of steps of the flow in a duct that is open at both ends.
+
+    Over time, the section of the duct shrinks by half and grows again. This change begins and ends smoothly.
+    """
     place = np.linspace(0, 1, 20001)
     area = 2e-4 * (1 - 0.5 * np.sin(pi * place) ** 4)
     table = wall_table(area, np.full_like(place, gap), np.zeros_like(place))
@@ -36,7 +39,10 @@ def smooth_march(cells: int, *, gap: float = 0.0, order: int = 2) -> tuple[Recor
 
 
 def orders(values: list[FloatArray]) -> list[float]:
-    """Observed orders of successive halvings, from mean differences between neighbouring grids."""
+    """Return the observed orders of convergence on grids whose cells are halved from grid to grid.
+
+    The errors are mean differences between neighbouring grids.
+    """
     errors = [np.abs(a - b.reshape(-1, 2).mean(axis=1)).mean() for a, b in itertools.pairwise(values)]
     return [log2(a / b) for a, b in itertools.pairwise(errors)]
 
@@ -149,7 +155,7 @@ def difference(law: Law, up: float, density: float, down: float, d_up: float, d_
 
 
 class Cell(NamedTuple):
-    """A slice's gas before a stage of length h [s]."""
+    """The gas in a slice and the walls of the slice before a stage that takes the time h [s]."""
 
     walls: Walls
     mass: float
@@ -162,7 +168,7 @@ class Cell(NamedTuple):
 
 
 def cells(gap: st.SearchStrategy[float], transport: st.SearchStrategy[float]) -> st.SearchStrategy[Cell]:
-    """Cells with an area of 1 cm2, which changes by up to 80 % within a stage."""
+    """Return a strategy for cells with an area of 1 cm2 that changes by up to 80 % within a stage."""
 
     def cell(pressure: float, velocity: float, gap: float, transport: float, log_time: float, growth: float) -> Cell:
         area, h = 1e-4, 10.0**log_time

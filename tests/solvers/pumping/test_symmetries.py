@@ -1,4 +1,4 @@
-"""Random pairs that pump: in a mirror, counted from the other end, one gear at a time, driven from the other gear."""
+"""Random pumping pairs are mirrored, counted from the other end, solved gear by gear, or driven by the other gear."""
 
 import re
 
@@ -73,7 +73,10 @@ def test_grooves_of_a_spur_pair_counted_from_its_other_end(random: Generator) ->
 
 @seeds(6, 200)
 def test_the_spaces_of_a_driven_gear_are_those_of_a_driver_gone_through_from_behind(random: Generator) -> None:
-    """Geometry knows no time: areas and clearances over the stroke are the same, gone through from behind."""
+    """The areas and clearances over the stroke depend on the geometry alone.
+
+    A driven gear passes through the stroke of a driving gear in the reverse direction.
+    """
     inputs = draw_case(random)
     gears = inputs.setup.gears
     exchanged = changed(inputs, {"setup.gears.pinion": gears.wheel, "setup.gears.wheel": gears.pinion})

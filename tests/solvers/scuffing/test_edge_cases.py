@@ -1,4 +1,4 @@
-"""Edge cases of the load distribution: what is refused or warned about, spur gears and unusual contact ratios."""
+"""Edge cases of the load distribution are refused, warned of or solved, also with unusual contact ratios."""
 
 from dataclasses import replace
 from math import radians
@@ -83,7 +83,7 @@ def test_a_loaded_path_that_reaches_a_base_circle_has_no_largest_pressure(points
 
 
 def test_relief_keeps_the_load_off_a_base_circle() -> None:
-    """What is not loaded there needs no limit: the pressure is that of the rest, at any resolution."""
+    """If relief keeps the load off the base circle, the largest pressure exists and is the same at any resolution."""
     relieved = LoadDistributionInputs(
         UNDERCUT_PAIR, Load(50.0, angular_speed(1000)), Modifications(root_relief=200e-6, root_relief_length=1e-3)
     )
@@ -129,7 +129,10 @@ def test_undercut_takes_the_verdict_and_nothing_else() -> None:
 
 
 def test_where_pressure_has_no_largest_value_flash_has_none_either() -> None:
-    """The feature line keeps off the loaded part of the base circle: lifted at A1, its own flash is finite."""
+    """The flank is loaded at the base circle, but not at the corner A1, where the feature line begins.
+
+    The flash temperature on the feature line is therefore finite, but no largest flash temperature is stated.
+    """
     lifted = LoadDistributionInputs(UNDERCUT_PAIR, Load(50.0, angular_speed(1000)), Modifications(helix_slope=-60e-6))
     result = closed_form(lifted)
     assert np.all(np.isfinite(result.path.blok_flash))
@@ -240,7 +243,11 @@ def test_no_film_where_the_feature_line_is_not_loaded(inputs: LoadDistributionIn
 
 @pytest.mark.parametrize("seed", range(6))
 def test_modifications_are_not_blamed_where_none_was_given(seed: int) -> None:
-    """Flanks as designed touch wherever they are loaded; without torque or speed it is that."""
+    """Unmodified flanks touch wherever they are loaded.
+
+    If a film is missing, the warning therefore names only the torque or the speed, and only if this input is zero
+    or almost zero.
+    """
     drawn = random_pair(np.random.default_rng([5, seed]))
     plain = replace(drawn.distribution, modifications=Modifications())
     for load, blamed in (

@@ -1,4 +1,4 @@
-"""Laws that hold for every valid pair: balance, contact lengths, scaling, reversal, minimum energy; hypothesis."""
+"""Random valid pairs obey the laws of load balance, contact lengths, scaling, reversal and minimum energy."""
 
 from dataclasses import replace
 
@@ -109,7 +109,10 @@ def test_exchanging_driver_and_driven_mirrors_everything(inputs: LoadDistributio
 def test_unmodified_teeth_share_as_minimum_elastic_energy_does(
     inputs: GearPairInputs, torque: float, model: Model
 ) -> None:
-    """Pedrero: w proportional to the stiffness v of the point, F v / int v dl; both follow from one multiplier."""
+    """By Pedrero, minimum elastic energy gives the line load F v/int v dl at a point with the stiffness v.
+
+    The load balance gives the same line load: v times the transmission error.
+    """
     linear = replace(model, contact="linear")
     result = solve(LoadDistributionInputs(inputs, Load(torque, 100.0), model=linear, resolution=COARSE))
     plane, table = result.path_of_contact.plane, result.balance.mesh.compliance.constant
@@ -154,7 +157,7 @@ def test_the_gap_is_linear_in_its_amplitudes(inputs: LoadDistributionInputs) -> 
 
 @examples(FEW, MANY, designs(), st.floats(0.5, 2.0))
 def test_line_loads_scale_with_elasticity_as_they_do_with_torque(inputs: LoadDistributionInputs, factor: float) -> None:
-    """E and torque by one factor leave every deflection as it was."""
+    """If Young's moduli and the torque are multiplied by the same factor, all deflections stay the same."""
     moduli = ("pinion_material.youngs_modulus", "wheel_material.youngs_modulus")
     one, other = solve(inputs), solve(scaled(inputs, factor, *moduli, "load.pinion_torque"))
     assert other.transmission_error.curves.error == pytest.approx(one.transmission_error.curves.error, rel=1e-9)

@@ -1,4 +1,4 @@
-"""Mirror images of random pairs under load: every number of the load distribution, not those that one thinks of."""
+"""Random loaded pairs are compared with their mirror images in every number of the load distribution."""
 
 from dataclasses import replace
 
@@ -22,7 +22,7 @@ PARTLY_LOADED = 1e-5  # lines loaded in part are cut anew until TE moves by less
 
 
 def draw_load(random: np.random.Generator) -> LoadDistributionInputs:
-    """A flank with every error that its face can have."""
+    """Draw a flank with in-plane deviation, out-of-plane deviation and lead curve."""
     inputs = draw_flank(random)
     width, points = inputs.gears.face_width, int(random.integers(2, 7))
     amplitude = inputs.gears.normal_module * 10 ** random.uniform(-4, -2)
@@ -42,7 +42,7 @@ def draw_load(random: np.random.Generator) -> LoadDistributionInputs:
 
 
 def face_turned(inputs: LoadDistributionInputs) -> LoadDistributionInputs:
-    """The flank counted from the other end of the face."""
+    """Return the inputs with the face counted from its other end."""
     shape, width = inputs.modifications, inputs.gears.face_width
     curve = shape.lead_curve
     turned = replace(
@@ -76,7 +76,10 @@ def test_a_spur_pair_counted_from_its_other_end(random: np.random.Generator) -> 
 
 @seeds(40, 1000)
 def test_a_pair_of_the_other_hand(random: np.random.Generator) -> None:
-    """The face is counted from the end that meshes first; a negative helix angle once had no lines across it."""
+    """The face is measured from the end that meshes first. The sign of the helix angle therefore has no effect.
+
+    With a negative helix angle, there were once no contact lines across the face.
+    """
     inputs = draw_load(random)
     image = changed(inputs, {"gears.helix_angle": -inputs.gears.helix_angle})
     assert not differences(solve(inputs), solve(image), tolerance=0.0)
@@ -84,7 +87,10 @@ def test_a_pair_of_the_other_hand(random: np.random.Generator) -> None:
 
 @seeds(40, 1000)
 def test_a_line_that_touches_in_a_corner_leads_no_teeth(random: np.random.Generator) -> None:
-    """Rounding decided whether it counts: mean mesh stiffnesses of similar pairs differed by 0.2 %."""
+    """Rounding errors once decided whether a line that only touches a corner counts.
+
+    The mean mesh stiffnesses of similar pairs then differed by 0.2 %.
+    """
     inputs = draw_load(random)
     mesh = mesh_of(inputs)
     plane, rolls = mesh.mesh.plane, mesh.rolls
@@ -105,7 +111,10 @@ def test_the_next_pitch_is_like_the_one_before(random: np.random.Generator) -> N
 
 
 def test_a_crest_narrower_than_a_slice_carries_a_light_load_alone() -> None:
-    """It lies between the places where the loaded parts of a line were looked for: no solution, or a lower crest."""
+    """The crest lies between the places where the solver once searched for loaded parts of a line.
+
+    The solver then found no solution or a lower crest.
+    """
     inputs = changed(draw_flank(np.random.default_rng(0)), {"gears.helix_angle": 0.0, "resolution": COARSE})
     width = inputs.gears.face_width
     middle, half = 12.5 / 25 * width, 0.45 / 25 * width
@@ -118,7 +127,10 @@ def test_a_crest_narrower_than_a_slice_carries_a_light_load_alone() -> None:
 
 
 def test_two_crests_of_a_lead_curve_carry_whatever_the_number_of_slices() -> None:
-    """The slices lay beside one of them: no balance, or half as much again on the other."""
+    """The slices once lay beside one of the crests.
+
+    There was then no balance, or the other crest carried 50 % more load.
+    """
     inputs = changed(draw_load(np.random.default_rng([38, 72])), {"gears.helix_angle": 0.0})
     loads = [
         solve(changed(inputs, {"resolution.slices": slices})).load.max_line_load for slices in (15, 25, 31, 51, 201)

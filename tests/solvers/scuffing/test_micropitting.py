@@ -1,4 +1,4 @@
-"""The film against micropitting over the flank: both methods agree, it follows its causes, extremes are limits."""
+"""Both methods of micropitting give the same film under the same load; film and wear change with their causes."""
 
 from dataclasses import replace
 from math import radians
@@ -46,14 +46,17 @@ PAIR = LoadDistributionInputs(GEARS, Load(300.0, 150.0), resolution=COARSE)
 
 
 def checked(design: LoadDistributionInputs, **known: object) -> ScuffingInputs:
-    """A pair in oil whose bulk temperature is given, in closed form, with its test."""
+    """Return the inputs of a closed-form check of a pair: an oil, a given bulk temperature and failure load stage 8.
+
+    `known` replaces any of these inputs.
+    """
     temperatures = Temperatures(bulk=353.15, bulk_method="given", oil=333.15)
     inputs = ScuffingInputs(design, None, OIL, temperatures, friction="iso_tr_13989", lubrication="closed_form")
     return replace(inputs, **{"micropitting": STAGE, **known})
 
 
 def least(found: Scuffing) -> float:
-    """The least film ratio of a loaded pair away from base circles."""
+    """Return the least film ratio by the local method. Fail if the result has no such ratio."""
     assert found.micropitting is not None
     ratio = found.micropitting.local.least_ratio
     assert ratio is not None
@@ -61,7 +64,10 @@ def least(found: Scuffing) -> float:
 
 
 def valid(inputs: ScuffingInputs) -> Scuffing:
-    """The check of a random pair, of which those that reach a base circle under load are left out."""
+    """Return the check of a random pair.
+
+    Skip the pair if it is invalid, or if it has no least film ratio because a loaded contact reaches a base circle.
+    """
     found = solved(inputs)
     assert found.micropitting is not None
     assume(found.micropitting.local.least_ratio is not None)

@@ -1,4 +1,4 @@
-"""The load distribution's numerics against independent quadrature, exact roots and their own refinement."""
+"""The numerical methods of the load distribution agree with quadrature, with exact roots and with finer resolutions."""
 
 from dataclasses import replace
 from math import radians
@@ -40,7 +40,7 @@ PATH_1 = path_of_contact(gear_pair(paper_gears(1)))
 @pytest.mark.parametrize("place", [0.0, 0.3, 0.7, 1.0])
 @pytest.mark.parametrize("section", ["normal", "transverse"])
 def test_bending_and_shear_are_the_beams_integrals(place: float, section: str) -> None:
-    """Xue Eq. 5."""
+    """Without the rotation of the root, the compliance of a tooth is the integral of bending and shear (Xue Eq. 5)."""
     pair = gear_pair(paper_gears(3))
     gear = section_gear(pair, pair.pinion, pair.inputs.pinion, section)
     shape = tooth_shape(gear)
@@ -85,7 +85,10 @@ def test_the_virtual_gear_of_a_spur_gear_is_the_gear() -> None:
 
 
 def half_space_approach(load: float, x: float, section: str) -> float:
-    """Approach along the transverse line of action, term by term from the half-space formula."""
+    """Return the approach of the flanks [m] along the transverse line of action.
+
+    The approach is the sum of the bending of both teeth and of their flattening by the half-space formula.
+    """
     pair = gear_pair(paper_gears(3))
     path = path_of_contact(pair)
     inclination = path.plane.cos_base_helix
@@ -143,7 +146,11 @@ def test_half_space_contact_is_several_times_softer_than_the_printed_term() -> N
 
 @pytest.mark.parametrize("pair", [1, 4])
 def test_the_linear_balance_is_the_exact_root_by_sorting(pair: int) -> None:
-    """Xue Eqs. 8 and 9. Sort the gaps, accumulate stiffness and moment; the first TE below the next gap is the root."""
+    """With linear contact, the transmission error is the exact root of Xue Eqs. 8 and 9.
+
+    The test sorts the slices by their gaps, and sums stiffness and stiffness times gap. The root is the first
+    transmission error that is below the gap of the next slice.
+    """
     shape = replace(PAPER_MODIFICATIONS, helix_slope=40e-6)
     result = solve_load_distribution(paper_pair(pair, shape))
     plane, mesh = result.path_of_contact.plane, result.balance.mesh
@@ -253,7 +260,10 @@ def test_harmonics_rebuild_the_error() -> None:
     ],
 )
 def test_modifications_act_where_they_are_named(name: str, amplitude: float, expected: list[float]) -> None:
-    """In A, E and the middle of the path at half the face; at both ends of the face in the middle of the path."""
+    """The gaps are compared at A, at E and at the middle of the path, each at half the face width.
+
+    The gaps at both ends of the face are compared at the middle of the path.
+    """
     g, b = PATH_1.length, 20e-3
     x, y = np.array([0, g, g / 2, g / 2, g / 2]), np.array([b / 2, b / 2, b / 2, 0, b])
     found = gaps_at(gap(Modifications(**{name: amplitude}), PATH_1), x, y)
@@ -290,7 +300,10 @@ def test_working_pressure_angle_solves_the_involute_equation() -> None:
 
 
 def test_a_lead_curve_is_a_gap_over_the_face() -> None:
-    """A straight and a parabolic curve are helix slope and lead crowning; stations stay what they are."""
+    """The linear part of a lead curve acts as a helix slope, and its parabolic part acts as lead crowning.
+
+    At the stations, the table of the lead curve has exactly the given gaps.
+    """
     stations = np.linspace(0.0, 20e-3, 41)
     eta = stations / 20e-3 - 0.5
     curve = LeadCurve(tuple(stations), tuple(15e-6 * eta + 40e-6 * eta**2))
@@ -330,7 +343,10 @@ def test_lead_curves_without_sense_are_refused(position: tuple[float, ...], amou
 
 
 def test_equal_gears_are_stiffest_at_the_pitch_point_without_rounding() -> None:
-    """The profile parameter was 2e-16 there, which a figure stated as the place."""
+    """The profile parameter at the stiffest point is exactly 0.
+
+    An earlier version gave 2e-16, and a figure stated this number as the place.
+    """
     gears = GearPairInputs(
         GearTeeth(31), GearTeeth(31), 4e-3, 60e-3, helix_angle=radians(30), rack_tip_radius=GROUND_FILLET
     )

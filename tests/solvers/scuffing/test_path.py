@@ -1,4 +1,4 @@
-"""The thermal solution along a path is that of its points; a path with gaps gives no verdict."""
+"""A path has the thermal solution of its single points, and no verdict if unsolved points might change the verdict."""
 
 from dataclasses import replace
 from functools import cache
@@ -35,12 +35,15 @@ POINTS = [pytest.param(points, marks=() if points < 100 else pytest.mark.slow) f
 COARSE = ehl.Model(nodes=61, film_nodes=11)
 AS_GIVEN = replace(COARSE, refine_mesh=False)
 STRONG = with_torque(paper_pair(1), 9.5 * paper_pair(1).load.pinion_torque)
-"""The Hertzian pressure passes 4 GPa over part of the path only."""
+"""Pair 1 under a torque at which the Hertzian pressure exceeds 4 GPa at some, but not all, points of the path."""
 
 
 @pytest.mark.parametrize("points", POINTS)
 def test_relieved_pair(points: int) -> None:
-    """Once 48, 48, 271 and 3026 K; each point alone says 25.5 K."""
+    """The largest flash temperature is 25.5 K, both along the path and at points that are solved alone.
+
+    An earlier version gave 48, 48, 271 and 3026 K on paths of 25, 50, 100 and 200 points.
+    """
     result = modified_pairs.check_path(modified_pairs.relieved_pair(points), every=points // 5)
     assert result.flash.thermal_ehl_max == pytest.approx(25.5, abs=0.2)
     assert result.safety.thermal_ehl_factor == pytest.approx(4.59, abs=0.03)
@@ -49,7 +52,10 @@ def test_relieved_pair(points: int) -> None:
 @pytest.mark.parametrize("slope", [pytest.param(0.0, marks=pytest.mark.slow), -20e-6, 20e-6])
 @pytest.mark.parametrize("points", POINTS)
 def test_turbo_pair(slope: float, points: int) -> None:
-    """Once 77, 248 and 72 K for helix slopes 0, -20 and 20 um at 50 points."""
+    """The largest flash temperature is between 8 and 17 K.
+
+    An earlier version gave 77, 248 and 72 K for helix slopes of 0, -20 and 20 um on paths of 50 points.
+    """
     result = modified_pairs.check_path(replace(modified_pairs.turbo_pair(slope), path_points=points), every=points // 4)
     assert 8.0 < result.flash.thermal_ehl_max < 17.0
     assert result.unsolved_points == 0
@@ -63,7 +69,10 @@ def test_random_pairs(seed: int) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(60))
 def test_many_random_pairs_and_backwards(seed: int) -> None:
-    """All points of 25, every eighth of 200."""
+    """About 25 points of every path are compared with the same points solved alone.
+
+    Then the path is solved backwards.
+    """
     inputs = modified_pairs.random_pair(np.random.default_rng([2, seed]))
     try:
         result = modified_pairs.check_path(inputs, every=inputs.path_points // 25)
@@ -79,7 +88,7 @@ def test_search_draws_and_checks(seed: int) -> None:
 
 
 def check_backwards(inputs: ScuffingInputs, result: Scuffing) -> None:
-    """From E2 to A1 as from A1 to E2."""
+    """Check that films and flash temperatures are the same from E2 to A1 as from A1 to E2."""
     solved = [k for k, status in enumerate(result.path.status) if status in {"ok", "ok_with_warnings"}]
     points = modified_pairs.points_of(inputs, result)
     backward = ehl.solve_path([contact_at(inputs, points, k) for k in reversed(solved)])
@@ -99,7 +108,10 @@ def test_direction_does_not_matter(inputs: ScuffingInputs) -> None:
 
 @pytest.mark.parametrize("inputs", stored(ScuffingInputs, "scuffing", "twice the points"))
 def test_number_of_points_does_not_decide(inputs: ScuffingInputs) -> None:
-    """Twice the points move no summary number by more than 1 %: the formulas' extremes are among them."""
+    """Twice as many points change no summary number by more than 1 % or 0.1 K.
+
+    The reason is that every path contains the points at which the closed formulas have their extremes.
+    """
     check_number_of_points(inputs)
 
 
@@ -110,7 +122,7 @@ def test_number_of_points_does_not_decide_for_many(seed: int) -> None:
 
 
 def check_number_of_points(inputs: ScuffingInputs) -> None:
-    """25 against 50 points."""
+    """Check that paths of 25 and of 50 points have the same largest flash temperatures and the same thinnest films."""
     try:
         one, other = (solve_scuffing(replace(inputs, path_points=points)) for points in (25, 50))
     except InvalidInput:
@@ -124,7 +136,10 @@ def check_number_of_points(inputs: ScuffingInputs) -> None:
 
 
 def test_a_path_with_unsolved_points_gives_no_verdict() -> None:
-    """80 instead of 0.08 Pa s: once S 1.84 and full film from the other 20 of 50 points."""
+    """With an oil of 80 Pa s instead of 0.08 Pa s, some points have no solution, and the path has no safety factor.
+
+    An earlier version solved only 20 of 50 points, and still stated a safety factor of 1.84 and a full film.
+    """
     inputs = replace(modified_pairs.relieved_pair(8), lubricant=Lubricant(viscosity=80.0), film=AS_GIVEN)
     result = solve_scuffing(inputs)
     missing = result.path.status.count("no_solution") + result.path.status.count("refused")
@@ -137,7 +152,7 @@ def test_a_path_with_unsolved_points_gives_no_verdict() -> None:
 
 
 def assert_no_verdict(result: Scuffing) -> None:
-    """Nothing of the thermal solution is stated of the whole path."""
+    """Check that thermal EHL states no maximum, no thinnest film and no safety factor of the whole path."""
     flash, film = result.flash, result.film
     assert (flash.thermal_ehl_max, flash.thermal_ehl_at_psi, result.contact_temperature.thermal_ehl_max) == (None,) * 3
     assert (film.thermal_ehl_min, film.min_at_psi, film.thickness_ratio, film.thickness_regime) == (None,) * 4
@@ -156,7 +171,11 @@ def test_a_refused_point_counts_and_takes_the_verdict() -> None:
 
 
 def test_a_point_too_light_to_matter_keeps_the_verdict() -> None:
-    """200 points of the relieved pair: one carries next to nothing, and more load would not make it the hottest."""
+    """Of 200 points of the relieved pair, a point with almost no load is refused.
+
+    Even under the least permissible load, this point would not be the hottest, so that the path keeps its safety
+    factor.
+    """
     result = solve_scuffing(replace(modified_pairs.relieved_pair(200), film=AS_GIVEN))
     assert result.path.status.count("refused") == result.unsolved_points > 0
     assert result.flash.thermal_ehl_max is not None
@@ -175,7 +194,10 @@ def test_lightest_load_is_the_edge_of_what_is_refused() -> None:
 
 @pytest.mark.parametrize("points", [10, 50, 100])
 def test_a_path_that_reaches_a_base_circle_has_no_maximum(points: int) -> None:
-    """12/60 teeth, undercut: once Blok safeties of 3.8, 2.4, 2.1 with 10, 50, 100 points."""
+    """The undercut pair with 12 and 60 teeth has no largest flash temperature and no safety factor.
+
+    An earlier version gave safety factors by Blok of 3.8, 2.4 and 2.1 on paths of 10, 50 and 100 points.
+    """
     distribution = LoadDistributionInputs(UNDERCUT_PAIR, replace(PAPER_LOAD, pinion_torque=50.0))
     inputs = ScuffingInputs(
         distribution,
@@ -249,7 +271,7 @@ def test_film_is_thinnest_and_flash_highest_at_the_pinion_root_and_the_slower_fl
 
 
 def test_maxima_and_safety_follow_from_the_path() -> None:
-    """Xue Eq. 16."""
+    """The largest contact temperature is the bulk temperature plus the largest flash temperature (Xue Eq. 16)."""
     temperatures = Temperatures(scuffing=433.15, bulk=360.0, bulk_method="given")
     result = solve_scuffing(inputs(temperatures=temperatures))
     largest = max(result.path.thermal.pinion_flash.max(), result.path.thermal.wheel_flash.max())
@@ -305,7 +327,10 @@ def test_warnings_count_the_points_they_concern(pair_1: Scuffing) -> None:
 
 
 def compressor_gears(power: float, points: int = 11) -> ScuffingInputs:
-    """A wide pair of module 7 mm at 2000 1/min under `power` [W]: fast, with a thick film."""
+    """Return a wide, fast pair with a thick film.
+
+    Its module is 7 mm, its speed is 2000 1/min, and it transmits `power` [W].
+    """
     gears = GearPairInputs(GearTeeth(47), GearTeeth(117), 7e-3, 0.2, rack_tip_radius=0.38)
     speed = angular_speed(2000.0)
     distribution = LoadDistributionInputs(gears=gears, load=Load(power / speed, speed))
@@ -321,7 +346,7 @@ def compressor_gears(power: float, points: int = 11) -> ScuffingInputs:
 
 @pytest.mark.parametrize("power", [1e6, 1e5, 3e4])
 def test_light_loads_are_solved(power: float) -> None:
-    """Films up to 10^4 times the deformation; the lighter the load, the thicker."""
+    """Light loads are solved, although the film is up to about 10^4 times as thick as the deformation of the flanks."""
     result = solve_scuffing(compressor_gears(power))
     assert set(result.path.status) <= {"ok", "ok_with_warnings"}
     assert result.film.thermal_ehl_min > 2e-6
@@ -336,7 +361,10 @@ def test_a_load_too_light_for_an_elastic_contact_is_refused(power: float) -> Non
 
 @pytest.mark.parametrize("pair", [1, 4])
 def test_torque_from_nominal_to_a_millionth(pair: int) -> None:
-    """Every load is solved or refused as too light, in this order; a path of both has numbers where it is solved."""
+    """Large torques are solved, and all torques below a limit are refused as too light.
+
+    If only some points of a path are refused, all other points have numbers.
+    """
     refusals: set[str] = set()
     nominal = paper_pair(pair)
     for factor in 10.0 ** np.linspace(0.0, -6.0, 19):
@@ -368,7 +396,11 @@ def test_temperature_out_of_range_names_the_bulk_temperature() -> None:
 
 
 def test_a_path_that_nowhere_converges_ends_with_its_steps(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Tolerances that cannot be met: a few points take all the steps of a contact alone, the others a tenth of them."""
+    """With tolerances of zero no point converges.
+
+    The first 12 points may take all the steps of a contact that is solved alone, and each further point may take a
+    tenth of these steps.
+    """
     monkeypatch.setattr(continuation, "TIGHT", (0.0, 0.0))
     monkeypatch.setattr(continuation, "LOOSE", (0.0, 0.0))
     taken: list[float] = []

@@ -1,4 +1,4 @@
-"""No number of a load distribution depends on a number of points, none jumps, and its books close."""
+"""The results of a load distribution do not depend on its resolution, do not jump, and agree with each other."""
 
 from collections.abc import Callable
 from dataclasses import replace
@@ -65,7 +65,10 @@ def test_peaked_flanks_have_their_maxima_with_few_slices(torque: float, shape: M
 
 
 def test_the_line_load_of_a_sharp_edge_in_closed_form() -> None:
-    """A spur flank tilted so far that a wedge is loaded: w falls linearly from the edge, F = w^2 / (2 k slope)."""
+    """A steep helix slope leaves a spur flank in contact only near one end of the face.
+
+    The line load falls linearly from w at this end, and the force is F = w^2 / (2 k slope).
+    """
     slope = 1e-3 / 20e-3
     inputs = with_torque(paper_pair(1, Modifications(helix_slope=1e-3), Model(contact="linear")), 1.0)
     result = solve_load_distribution(replace(inputs, gears=replace(inputs.gears, helix_angle=0.0)))
@@ -102,7 +105,7 @@ def test_default_relief_lengths_are_continuous_in_the_contact_ratio(ratio: float
     ("ratio", "fraction"), [(0.9, 0.1), (1.05, 0.1), (1.5, 1 / 3), (1.9, 0.9 / 1.9), (2.1, 0.5), (2.3, 0.5)]
 )
 def test_default_relief_length(ratio: float, fraction: float) -> None:
-    """(eps_alpha - 1) p_bt, a tenth of the path at least, half of it at most."""
+    """The default length of a relief is (eps_alpha - 1) p_bt, but at least a tenth and at most half of the path."""
     path = meshing_path(paper_gears(1))
     cut = replace(path, end=path.start + ratio * path.pair.transverse_base_pitch)
     form = gap(Modifications(tip_relief=1e-6, root_relief=1e-6), cut)

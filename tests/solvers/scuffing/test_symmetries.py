@@ -1,4 +1,4 @@
-"""The whole flank decides: mirror images are equally safe, and no line of a flank is hotter than the flank."""
+"""Mirror images of a pair are equally safe, and no line of a flank is hotter than the hottest point of the flank."""
 
 from dataclasses import replace
 
@@ -38,7 +38,7 @@ OIL = Lubricant(0.05, 360.0, 20e-9, 0.04, 870.0)
 
 
 def pair_in_oil(design: LoadDistributionInputs, **known: object) -> ScuffingInputs:
-    """A pair in an oil, its bulk temperature estimated, in closed form."""
+    """Return the inputs of a closed-form check of a pair in oil. The bulk temperature is estimated."""
     temperatures = Temperatures(bulk=None, bulk_method="estimated", oil=333.15, scuffing=573.15)
     return replace(
         ScuffingInputs(design, OIL, temperatures=temperatures, lubrication="closed_form", friction="given"), **known
@@ -46,7 +46,7 @@ def pair_in_oil(design: LoadDistributionInputs, **known: object) -> ScuffingInpu
 
 
 def solved(inputs: ScuffingInputs) -> Scuffing:
-    """The check of a valid pair."""
+    """Return the check of a pair. Skip the pair if the solver refuses it."""
     try:
         return solve_scuffing(inputs)
     except InvalidInput:
@@ -55,7 +55,7 @@ def solved(inputs: ScuffingInputs) -> Scuffing:
 
 
 def mirrored(design: LoadDistributionInputs) -> LoadDistributionInputs:
-    """A spur pair seen in a mirror across the middle of its face."""
+    """Return the mirror image of a spur pair. The mirror is at the middle of the face."""
     shape, width = design.modifications, design.gears.face_width
     lead = LeadCurve(tuple(width - y for y in shape.lead_curve.position[::-1]), shape.lead_curve.gap[::-1])
     slopes = {name: -getattr(shape, name) for name in SLOPES}
@@ -63,7 +63,7 @@ def mirrored(design: LoadDistributionInputs) -> LoadDistributionInputs:
 
 
 def assert_as_safe(one: Scuffing, other: Scuffing, rel: float = EXACT) -> None:
-    """The largest temperature, the thinnest film and the safety are equal, or unknown in both."""
+    """Check that flash temperature, bulk temperature, film and safety are equal, or None, in both results."""
     for part, name in (
         ("flash", "blok_max"),
         ("contact_temperature", "bulk"),
@@ -76,7 +76,7 @@ def assert_as_safe(one: Scuffing, other: Scuffing, rel: float = EXACT) -> None:
 
 @st.composite
 def misaligned_spur_pairs(draw: st.DrawFn) -> LoadDistributionInputs:
-    """A spur pair with a slope, shaft deviations and a lead curve."""
+    """Draw a spur pair with a helix slope, shaft deviations and a lead curve."""
     design = draw(designs())
     amplitude = 0.01 * design.gears.normal_module
     slopes = {name: amplitude * draw(st.floats(-1.0, 1.0)) for name in SLOPES}
@@ -102,16 +102,17 @@ def test_a_spur_pair_is_as_safe_as_its_mirror_image(design: LoadDistributionInpu
 
 
 def flash_at(design: LoadDistributionInputs, found: Scuffing, profile: float, face: float) -> float:
-    """Blok's flash temperature [K] at a fraction of the path and a distance along the face [m]."""
+    """Return Blok's flash temperature [K] at a fraction of the path and at a distance along the face [m]."""
     x = np.array([profile * found.distribution.path_of_contact.length])
     return float(blok_flash(design, contact_at_points(design, found.distribution, x, np.array([face])))[0])
 
 
 @examples(FEW, MANY, designs())
 def test_a_pair_is_as_safe_the_other_way_round(design: LoadDistributionInputs) -> None:
-    """The wheel drives: the path is passed from E to A, and the other end of the face meshes first.
+    """A pair is as safe if the wheel drives instead of the pinion.
 
-    On the map that users have by default: on one of 21 x 11 points the search leaves 0.3 % along a slanting ridge.
+    The path then leads from E to A, and the other end of the face meshes first. The map has its default size of 201 x
+    101 points. On a map of 21 x 11 points, the search along a slanting ridge misses 0.3 % of the largest temperature.
     """
     design = replace(design, resolution=replace(design.resolution, profile_points=201, face_points=101))
     gears, shape = design.gears, design.modifications
@@ -159,7 +160,10 @@ def test_no_line_of_the_flank_is_hotter_or_safer(design: LoadDistributionInputs,
 
 
 def test_the_map_is_the_formula_at_its_points() -> None:
-    """The map scales one value of each row by the load to the power 3/4."""
+    """The map evaluates Blok's formula once per row, and scales this value by the load to the power 3/4.
+
+    The result is the same as the formula at every point.
+    """
     design = turbo_gear(GROUND).mesh.distribution
     distribution = solve_load_distribution(design)
     found = map_flash(design, distribution)
@@ -180,14 +184,17 @@ def test_the_flank_is_as_hot_as_that_of_a_unit_with_rigid_shafts(slope: float) -
 
 
 def small_spur_pair(slope: float) -> ScuffingInputs:
-    """A spur pair of 1.5 mm module that the slope presses on one end of its face."""
+    """Return a spur pair of module 1.5 mm. A helix slope presses one end of the face against the mating flank."""
     gears = GearPairInputs(GearTeeth(18), GearTeeth(45), 1.5e-3, 15e-3, rack_tip_radius=GROUND_FILLET)
     design = LoadDistributionInputs(gears, Load(20.0, 314.0), Modifications(helix_slope=slope))
     return pair_in_oil(design, temperatures=Temperatures(bulk=353.15, oil=333.15, scuffing=433.15, bulk_method="given"))
 
 
 def test_a_corner_off_the_feature_line_decides_and_a_note_says_so() -> None:
-    """The line meets the loaded end at A with one sign of the slope, at E with the other."""
+    """The feature line meets the loaded end of the face at A or at E, depending on the sign of the helix slope.
+
+    For one of the two signs, the safety factor of the line alone is too large.
+    """
     one, other = (solve_scuffing(small_spur_pair(slope)) for slope in (20e-6, -20e-6))
     assert_as_safe(one, other)
     lines = [found.safety.feature_line_factor for found in (one, other) if found.safety is not None]
@@ -203,7 +210,10 @@ def test_a_corner_off_the_feature_line_decides_and_a_note_says_so() -> None:
 
 
 def test_face_load_factor_of_an_even_load_is_one() -> None:
-    """The factor is at least 1 by definition. At a helix angle of 45 degrees it used to be 0.99999."""
+    """The face load factor is at least 1 by definition.
+
+    An earlier version gave 0.99999 at a helix angle of 45 degrees.
+    """
     gears = GearPairInputs(
         GearTeeth(20), GearTeeth(60), 2e-3, 20e-3, helix_angle=np.radians(45.0), rack_tip_radius=GROUND_FILLET
     )

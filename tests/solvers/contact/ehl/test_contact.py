@@ -1,4 +1,4 @@
-"""The solved contact: every criterion of convergence, limits, symmetry, order, and what is refused."""
+"""Solved contacts meet all criteria of convergence, limits, symmetry and order; wrong inputs are refused."""
 
 from dataclasses import replace
 
@@ -18,7 +18,7 @@ EYRING = Model()
 
 
 def check_solution(result: LineContactResult, model: Model = EYRING) -> None:
-    """All criteria of a converged result, and nothing that is not a number."""
+    """Assert that a result meets all criteria of convergence and contains only finite numbers."""
     curves, convergence = result.curves, result.convergence
     assert convergence.pressure_change < 1e-5
     assert convergence.load_error < 1e-9
@@ -39,7 +39,7 @@ def check_solution(result: LineContactResult, model: Model = EYRING) -> None:
 
 
 def check_all(contacts: list[LineContactInputs]) -> int:
-    """Every solution meets all criteria, and what is none has no numbers; how many are solved."""
+    """Check that solutions meet all criteria and that other results have no numbers; return the number of solutions."""
     solved = 0
     for inputs in contacts:
         result = solve(inputs)
@@ -68,7 +68,10 @@ def test_a_newtonian_contact_is_solved_or_says_that_it_is_not() -> None:
 
 @pytest.mark.slow
 def test_newtonian_contacts_of_the_grid_and_at_random() -> None:
-    """Near pure rolling nothing limits the stress: four of the grid are not solved, at slide-roll ratios to 0.1."""
+    """Near pure rolling nothing limits the stress of a Newtonian oil.
+
+    Four contacts of the grid are not solved. Their slide-roll ratios are at most 0.1.
+    """
     newtonian = Model(rheology="newtonian")
     assert check_all(grid_contacts(newtonian)) >= 195
     assert check_all(random_contacts(newtonian, 500, seed=1)) >= 498
@@ -86,10 +89,12 @@ def test_isothermal_contacts(rheology: str, pressure: float, speed: float, visco
 
 
 def test_a_spike_without_a_limit_is_said_not_to_converge() -> None:
-    """Isothermal and Newtonian at 1 GPa and 15 m/s: friction 1405, 3512, 5682 with 121, 241, 481 nodes.
+    """The friction coefficient of an isothermal Newtonian contact at 1 GPa and 15 m/s does not converge.
 
-    Half the nodes, interpolated, keep the spike of all: one Newton step on them sees 3.4 % of error for 38 %. All of
-    what they make is stated, as the pressure falls from one node to the next.
+    The coefficient is 1405, 3512 and 5682 on 121, 241 and 481 nodes. Half of the nodes with interpolated pressures
+    would keep the spike of all nodes: after one Newton step on them the error would seem to be 3.4 %, and not 38 %. The
+    stated error is the whole difference between both meshes, because the pressure falls steeply from one node to the
+    next.
     """
     model = Model(thermal=False, rheology="newtonian")
     inputs = at_pressure(1e9, 0.5, 15.0, 0.08, 4e-3, model)
@@ -103,7 +108,7 @@ def test_a_spike_without_a_limit_is_said_not_to_converge() -> None:
 
 @pytest.mark.parametrize("thermal", [True, False])
 def test_film_thickness_converges_with_second_order(thermal: bool) -> None:
-    """Intervals 90, 180, 360 of one grading."""
+    """The three meshes have 90, 180 and 360 intervals of the same grading."""
     films = [
         solve(
             LineContactInputs(POINT_A, model=Model(thermal=thermal, nodes=n, refine_mesh=False), lubricant=Lubricant())
@@ -129,9 +134,10 @@ def test_exchanged_surfaces_exchange_the_results(rheology: str) -> None:
 
 @pytest.mark.parametrize(("rheology", "nodes", "load"), [("newtonian", 121, 1e4), ("ree_eyring", 361, 2.73e5)])
 def test_perfect_conductors_make_it_isothermal(rheology: str, nodes: int, load: float) -> None:
-    """Film and solids that carry all heat away: the isothermal film, but for 20 intervals across it, 1/400 of A.
+    """If film and solids carry all heat away, the thermal film agrees with the isothermal film to within 0.4 %.
 
-    The two split a Ree-Eyring flux differently into its parts, which costs 0.8 % on 121 nodes.
+    The 20 intervals across the thermal film change the flow coefficient A by 1/400. Both films also split the flux of a
+    Ree-Eyring oil differently into its parts, which costs 0.8 % on 121 nodes.
     """
     metal = Solid(thermal_conductivity=1e12)
     model = replace(Model(nodes=nodes), rheology=rheology)
@@ -146,7 +152,10 @@ def test_perfect_conductors_make_it_isothermal(rheology: str, nodes: int, load: 
 
 
 def test_warmer_surroundings_shift_a_film_without_viscosity_change() -> None:
-    """All temperatures and the reference up by 20 K, Barus: the same contact, 20 K warmer."""
+    """If all temperatures rise by 20 K, the contact with Barus' law stays the same, but is 20 K warmer.
+
+    The reference temperature of the oil also rises by 20 K.
+    """
     oil = Lubricant(pressure_viscosity_law="barus", pressure_viscosity=12e-9, compressible=False)
     one, other = (
         solve(
@@ -197,7 +206,7 @@ def test_stationary_surface_is_allowed_without_heat() -> None:
 
 
 def test_slow_surface_is_solved_with_a_warning() -> None:
-    """Pe 4.5 at A; far below it, 0.35, numbers are still returned."""
+    """At point A the Peclet number of surface 1 is 4.5. At 0.08 m/s it is 0.35, and the contact is still solved."""
     for speed in (POINT_A.speed_1, 0.08):
         result = solve(LineContactInputs(replace(POINT_A, speed_1=speed), lubricant=Lubricant()))
         assert result.status == "ok_with_warnings"
@@ -213,7 +222,7 @@ def test_thin_film_and_high_traction_are_flagged() -> None:
 
 
 def test_no_solution_carries_residuals_and_no_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
-    """With three steps a mesh nothing converges; the budget ends it."""
+    """No attempt converges if the number of Newton steps on a mesh is limited to three."""
     monkeypatch.setattr(continuation, "STEPS_A_SOLVE", 3)
     result = solve(LineContactInputs(POINT_A, model=Model(rheology="newtonian"), lubricant=Lubricant()))
     assert result.status == "no_solution"
@@ -224,7 +233,7 @@ def test_no_solution_carries_residuals_and_no_numbers(monkeypatch: pytest.Monkey
 
 
 def test_steps_are_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Tolerances that cannot be met end with the budget, whatever the attempts."""
+    """If the tolerances cannot be met, the budget limits the number of Newton steps of all attempts together."""
     monkeypatch.setattr(continuation, "TIGHT", (0.0, 0.0))
     monkeypatch.setattr(continuation, "LOOSE", (0.0, 0.0))
     result = solve(LineContactInputs(POINT_A, lubricant=Lubricant()))

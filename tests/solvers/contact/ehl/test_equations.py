@@ -1,6 +1,6 @@
-"""The compiled kernels against the equations in plain NumPy: residual, derivatives by complex step, Newton's step.
+"""The compiled kernels agree with the equations in plain NumPy: residual, derivatives by complex step, Newton step.
 
-The load is balanced by the integral of the pressure (Xue, Eq. 22).
+The integral of the pressure balances the load (Xue, Eq. 22).
 """
 
 from collections.abc import Iterator
@@ -42,7 +42,7 @@ rheologies = pytest.mark.parametrize("rheology", list(THERMAL))
 
 
 class At(NamedTuple):
-    """A state, the equations' residual there and the kernels' evaluation of it."""
+    """A state of a contact. The methods evaluate the equations at this state; `work` holds the kernels' results."""
 
     problem: Problem
     grid: Grid
@@ -59,25 +59,28 @@ class At(NamedTuple):
         return equations.residual(self.problem, self.grid, self.state.cavitated, unknowns[:n], unknowns[n], t, carried)
 
     def slope(self, direction: FloatArray) -> Residual:
-        """Derivative of the residual in a direction, what carries heat held fixed."""
+        """Return the residual's derivative in a direction. The flow quantities in the heat balance are held fixed."""
         residual = self.residual(self.unknowns + 1j * STEP * direction, self.carried)
         return Residual(*(np.asarray(part).imag / STEP for part in residual))
 
     @property
     def free(self) -> np.ndarray:
-        """The unknowns of (P, H0) that nothing pins: viscosity has a kink at P = 0, where broken film and ends stay."""
+        """Return the indices of all unknowns (P, H0) except the pressures that are pinned to zero.
+
+        The pressures at both ends and in the broken film stay at P = 0, where the viscosity has a kink.
+        """
         pinned = self.state.cavitated.copy()
         pinned[[0, -1]] = True
         return np.append(np.flatnonzero(~pinned), pinned.size)
 
     @property
     def dragged(self) -> float:
-        """The largest flux that the surfaces drag, of which pressure holds back the most."""
+        """Return the largest flux that the surfaces drag, in flux scales. The pressure holds back most of this flux."""
         drag = self.work.coefficients.b.value * self.work.height
         return float(drag.max()) * self.problem.gap_scale / self.problem.flux_scale
 
     def set_jacobian(self, jacobian: FloatArray) -> None:
-        """That of mass and load by (P, H0)."""
+        """Write the Jacobian of mass and load with respect to (P, H0) to `jacobian`."""
         height, gradient, cavitated = self.work.height, self.work.gradient, self.state.cavitated
         mass_flux_slopes(self.problem, self.grid, height, gradient, cavitated, self.work.coefficients, self.work.faces)
         assemble_jacobian(self.grid, cavitated, self.work.faces, jacobian)
@@ -89,7 +92,7 @@ class At(NamedTuple):
 
 
 def contacts(model: Model) -> list[LineContactInputs]:
-    """Return lightly and heavily loaded contacts, contacts in pure rolling, and contacts with a simpler oil."""
+    """Return random contacts, lightly loaded contacts, contacts with a simpler oil, and a contact in pure rolling."""
     light = [at_pressure(p, ratio, 5.0, 0.05, 10e-3, model) for p, ratio in ((2e7, 0.3), (5e7, -0.8), (1e8, 1.2))]
     simple = [replace(inputs, lubricant=SIMPLE_OIL) for inputs in random_contacts(model, 3, seed=5)]
     rolling = [at_pressure(0.8e9, 0.0, 3.0, 0.02, 8e-3, model)]
@@ -98,7 +101,7 @@ def contacts(model: Model) -> list[LineContactInputs]:
 
 @cache
 def states(model: Model) -> list[At]:
-    """States near solutions, with other pressures, another separation and other temperatures."""
+    """Return states near solutions. They differ from the solutions in pressures, separation and temperatures."""
     return list(_states(model))
 
 
@@ -132,9 +135,10 @@ def of_kernels(at: At) -> Residual:
 
 
 def heat_slope_of_kernels(at: At, direction: FloatArray) -> FloatArray:
-    """Derivative of the columns' residual in a direction from what the kernels linearise them by, before they factor.
+    """Return the derivative of the heat residual in a direction, as the kernels linearise the columns.
 
-    A wall's own row holds the heat flux that it lets pass, which warms the surface downstream.
+    The columns are not factored yet. The row of a wall yields the heat flux into the wall, and this flux warms the
+    surface downstream.
     """
     n, k = at.state.temperature.shape
     column, surfaces, m = at.work.heat.column, at.work.heat.surfaces, k - 1
@@ -159,7 +163,7 @@ def heat_slope_of_kernels(at: At, direction: FloatArray) -> FloatArray:
 
 
 def directions(at: At, *, of_pressure: bool, seed: int) -> FloatArray:
-    """A random change of all pressures and H0, or of all temperatures behind the inlet."""
+    """Return a random change of all pressures and of H0, or of all temperatures downstream of the inlet."""
     draw = np.random.default_rng(seed)
     n, k = at.state.temperature.shape
     change = np.zeros(n + 1 + n * k)
@@ -171,13 +175,17 @@ def directions(at: At, *, of_pressure: bool, seed: int) -> FloatArray:
 
 
 def assert_near(found: FloatArray, expected: FloatArray, tolerance: float) -> None:
-    """Within a tolerance of the largest."""
+    """Assert that the arrays differ by at most `tolerance` times the largest expected value."""
     assert np.abs(found - expected).max() <= tolerance * np.abs(expected).max()
 
 
 @rheologies
 def test_residual_of_a_thermal_contact(rheology: str) -> None:
-    """To 1e-12 of the flux that is dragged, of the load, of the largest heat in the film, and of the temperatures."""
+    """The residuals agree to 1e-12.
+
+    This tolerance is relative to the largest flux that the surfaces drag, to the largest heat in the film, and to the
+    largest temperature. For the dimensionless load the tolerance is absolute.
+    """
     assert len(states(THERMAL[rheology])) == STATES
     for at in states(THERMAL[rheology]):
         found, expected = of_kernels(at), at.residual(at.unknowns)
@@ -242,7 +250,10 @@ def test_derivative_of_mass_by_temperatures(rheology: str) -> None:
 @rheologies
 @pytest.mark.parametrize("of_pressure", [True, False])
 def test_derivative_of_heat(rheology: str, *, of_pressure: bool) -> None:
-    """By all pressures and H0, by all temperatures: rows of the surfaces apart, as they are temperatures."""
+    """The heat residual is differentiated by all pressures and H0, or by all temperatures.
+
+    The rows of the surfaces are compared separately, because their residuals are temperatures.
+    """
     for seed, at in enumerate(states(THERMAL[rheology])):
         direction = directions(at, of_pressure=of_pressure, seed=seed)
         found, expected = heat_slope_of_kernels(at, direction), at.slope(direction).heat
@@ -252,7 +263,10 @@ def test_derivative_of_heat(rheology: str, *, of_pressure: bool) -> None:
 
 @rheologies
 def test_newtons_step_solves_the_linearised_equations(rheology: str) -> None:
-    """Elimination of the columns, march and GMRES against a dense solution, to what GMRES is left with (1 %)."""
+    """The step by elimination of the columns, march and GMRES agrees with a dense solution to within 2 %.
+
+    GMRES stops if the remaining error is below 1 %.
+    """
     at = states(THERMAL[rheology])[0]
     n, k = at.state.temperature.shape
     size = n + 1 + n * k

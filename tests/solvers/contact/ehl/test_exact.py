@@ -1,4 +1,4 @@
-"""Building blocks of the thermal contact against exact solutions."""
+"""Building blocks of the thermal contact agree with exact solutions."""
 
 from math import asinh, exp, log, sqrt
 
@@ -28,15 +28,16 @@ def constants(oil: Lubricant, rheology: str) -> Problem:
 
 
 def places(*columns: tuple[float, float, float]) -> RecordArray:
-    """p, G and h of columns."""
+    """Return records with the p, G and h of the given columns."""
     at = records(len(columns), PLACE)
     at.p, at.g, at.h = np.array(columns).T
     return at
 
 
 def couette_errors(sliding: float, nodes: int) -> tuple[float, float]:
-    """Relative errors of temperature rise and stress between walls at 360 K, against Nahme's solution.
+    """Return the relative errors of temperature rise and stress in a flow between two walls at 360 K.
 
+    The exact solution is that of Nahme for
     eta = eta0 e^(-beta (t - t_w)), Na = beta eta0 du^2/lambda: dt = ln(1 + Na/8)/beta and
     tau = (8 lambda eta0/beta)^1/2/h asinh((Na/8)^1/2)/(1 + Na/8)^1/2.
     """
@@ -68,20 +69,23 @@ def couette_errors(sliding: float, nodes: int) -> tuple[float, float]:
 
 
 def test_thermal_couette_flow() -> None:
-    """Xue Eq. 23. Na = 1.5, 21 nodes: within 5e-4."""
+    """Xue Eq. 23. At Na = 1.5, temperature rise and stress on 21 nodes are exact to within 5e-4."""
     assert max(map(abs, couette_errors(0.5, 21))) < 5e-4
 
 
 @pytest.mark.parametrize("sliding", [2.5, 20.0])
 def test_thermal_couette_flow_converges_with_second_order(sliding: float) -> None:
-    """Na = 37 and 2400, the film 41 and 136 K warmer."""
+    """At Na = 37.5 and 2400 the hottest place of the film is 41 and 136 K warmer than the walls."""
     coarse, fine = (np.abs(couette_errors(sliding, nodes)).max() for nodes in (21, 41))
     assert coarse < 6e-3
     assert coarse / fine == pytest.approx(4.0, rel=0.1)
 
 
 def test_uniform_strip_source() -> None:
-    """Xue Eq. 24. A strip of 2 b under uniform heat ends 2 q sqrt(2 b/(pi rho c u lambda)) warmer, to 0.1 %."""
+    """Xue Eq. 24. Uniform heat on a strip of 2 b warms the end of the strip by 2 q sqrt(2 b/(pi rho c u lambda)).
+
+    The computed value agrees to within 0.1 %.
+    """
     grid = grid_for(0.2, 121)
     inside = (np.abs(grid.x) <= 1.0).astype(float)
     end = int(np.flatnonzero(inside)[-1])
@@ -94,7 +98,7 @@ def test_uniform_strip_source() -> None:
 
 
 def test_square_root_of_distance_heats_linearly() -> None:
-    """q = sqrt(s) gives pi/2 s: second order for a flux that is not piecewise linear."""
+    """The flux q = sqrt(s) gives pi/2 s. This flux is not piecewise linear, so the error falls with second order."""
     errors = []
     for nodes in (65, 129):
         x = np.linspace(0.0, 1.0, nodes) ** 2
@@ -104,7 +108,10 @@ def test_square_root_of_distance_heats_linearly() -> None:
 
 
 def test_hertz_pressure_flattens_the_parabola() -> None:
-    """Xue Eq. 21. X^2/2 + K P is constant inside the contact; the error is that of a linear pressure between nodes."""
+    """Xue Eq. 21. With Hertzian pressure, X^2/2 + K P is constant inside the contact.
+
+    The error arises because the computed pressure is linear between the nodes.
+    """
     defects = []
     for nodes in (241, 481):
         x = np.cos(np.linspace(np.pi, 0.0, nodes))
@@ -120,7 +127,10 @@ def test_hertz_pressure_flattens_the_parabola() -> None:
     ("p", "g", "h"), [(0.9e9, 3e7, 0.5e-6), (0.2e9, -4e7, 0.3e-6), (1.5e9, 1e6, 0.5e-6), (1e7, 1e4, 3e-6)]
 )
 def test_column_at_one_temperature_is_the_closed_form(rheology: str, p: float, g: float, h: float) -> None:
-    """Xue Eq. 17. Flow and mid-film stress of 200 intervals against sinh's; A and B differ, their flux does not."""
+    """Xue Eq. 17. Flux and mid-film stress on 200 intervals agree with the closed form for a uniform temperature.
+
+    The flow coefficients A and B differ from those of the closed form, but the flux does not.
+    """
     given_ = constants(Lubricant(), rheology)
     film, coefficients = film_arrays(1, 201), flow_coefficients(1)
     evaluate_columns(given_, np.full((1, 201), 360.0), 0, 1, places((p, g, h)), film, coefficients)
@@ -133,7 +143,10 @@ def test_column_at_one_temperature_is_the_closed_form(rheology: str, p: float, g
 
 @pytest.mark.parametrize("rheology", ["newtonian", "ree_eyring"])
 def test_derivatives_of_a_column(rheology: str) -> None:
-    """Of ln A, B and the mid-film stress by p, G, h and one temperature, against central differences."""
+    """The derivatives of ln A, of B and of the mid-film stress agree with central differences.
+
+    These are the derivatives with respect to p, G, h and one temperature.
+    """
     given_ = constants(Lubricant(), rheology)
     film, coefficients = film_arrays(1, 21), flow_coefficients(1)
     t = 380.0 + 40.0 * np.random.default_rng(0).random(21)

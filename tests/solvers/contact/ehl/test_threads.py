@@ -1,4 +1,4 @@
-"""A contact that is solved outside the service's workers has one thread of the BLAS, and gives back what was there."""
+"""Outside the service's workers a contact is solved with one BLAS thread, and then all threads are given back."""
 
 from collections.abc import Iterator
 
