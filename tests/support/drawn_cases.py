@@ -29,8 +29,6 @@ def drawn_cases(calculation: Calculation, count: int, seed: int) -> Iterator[tup
     alike = [each for each in examples().values() if each.endpoint == calculation.path]
     found = 0
     for _ in range(TRIALS):
-        if found == count:
-            return
         body = _body(calculation, deepcopy(choice.choice(alike).request), choice)
         try:
             request = validated(calculation.request, {**body, "detail": "fields"})
@@ -40,6 +38,8 @@ def drawn_cases(calculation: Calculation, count: int, seed: int) -> Iterator[tup
         if answer.status != "no_solution":
             found += 1
             yield request, answer
+            if found == count:
+                return
     raise AssertionError(f"{found} of {TRIALS} drawn cases of {calculation.path} have an answer")
 
 
