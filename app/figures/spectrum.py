@@ -141,7 +141,9 @@ def deciding(limited: Limited) -> Figure:
     """
     rows = [Row(case.name, 100.0 * case.decides) for case in limited.cases if case.decides is not None]
     if not rows:
-        raise NoFigure("no_solution", "for every machine, at least one case has no solution")
+        raise NoFigure(
+            "no_solution", "every machine has at least one case without a solution, so there is nothing to draw"
+        )
     panels = [Panel(x=Axis("machines whose worst case it is", "%"), y=Axis("case"), rows=rows)]
     most = max(rows, key=lambda row: row.value)
     finding = f"{most.name} in {number(most.value, '%')} of the machines"

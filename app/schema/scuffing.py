@@ -314,7 +314,7 @@ class ContactTemperatures(Section, of=si.Temperatures):
             )
             raise PydanticCustomError(
                 "exclusive",
-                "bulk_c and {method} are both given; leave bulk_c out, or set bulk_method to given",
+                "bulk_c is given, but bulk_method asks for {method}; leave out bulk_c or bulk_method",
                 {"method": method},
             )
         if self.bulk_method == "heat_balance" and self.oil_supply != "spray":

@@ -27,7 +27,8 @@ def _field_paths(value: Any) -> str | list[str]:
         return _field_path(value)
     if not 0 < len(value) <= MOST_FIELDS_TOGETHER:
         raise PydanticCustomError(
-            "path_type", "Give one path, or a list of up to fifty paths whose fields change together"
+            "path_type",
+            "Give the path of one field, or a list of up to fifty paths; the fields of a list change together",
         )
     return [_field_path(each) for each in value]
 

@@ -64,7 +64,7 @@ def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
         raise InvalidInput("bearing_count", "a shaft needs exactly two bearings", f"{name}.bearings")
     for k, bearing in enumerate(shaft.bearings):
         if not _is_on(shaft, bearing.position):
-            message = f"bearing {k} lies outside the shaft"
+            message = f"bearing {k} lies beyond the ends of the shaft"
             raise InvalidInput("bearing_outside", message, f"{name}.bearings.{k}.position")
         if isinstance(bearing, LinearBearing):
             matrix = np.array(bearing.stiffness)
@@ -120,7 +120,7 @@ def _check_couplings(inputs: DriveTrainInputs) -> None:
         shaft = inputs.pinion_shaft if coupling.shaft == "pinion" else inputs.wheel_shaft
         if not _is_on(shaft, coupling.position):
             raise InvalidInput(
-                "position_outside", "the hub of the coupling lies outside the shaft", f"{field}.position"
+                "position_outside", "the hub of the coupling lies beyond the ends of the shaft", f"{field}.position"
             )
         if (coupling.position > middle) != (coupling.machine_side == "plus"):
             message = (

@@ -359,8 +359,8 @@ def _pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Mo
     if model.tooth_stiffness == "parabola" and model.contact != "linear":
         raise InvalidInput(
             "contact_law",
-            "the parabolic tooth stiffness requires linear contact, because this stiffness is scaled to Ishikawa's "
-            "maximum with linear contact; choose linear contact",
+            "the parabolic tooth stiffness requires the contact model 'linear', because its maximum is Ishikawa's "
+            "stiffness with this contact model; choose 'linear'",
             "contact",
         )
     x = np.linspace(0.0, path.length, TABLE_POINTS)

@@ -299,7 +299,8 @@ def test_choking_scan_repeats_the_pumping_endpoint_and_crosses_its_limits_at_the
 def test_the_curve_of_choking_bends_where_gas_reaches_an_end_supersonic() -> None:
     """Above the bend, gas reaches an end of the face at supersonic speed.
 
-    The Mach number of an expansion to ambient pressure then rises less than half as fast with the speed.
+    Above the bend, the Mach number of an expansion to ambient pressure rises less than half as fast with the speed of
+    the pinion as below the bend.
     """
     request, _ = solved("starter-choking-speed")
     assert "bend" in figure("starter-choking-speed", "choking").finding

@@ -215,7 +215,7 @@ def test_a_solver_s_complaint_names_the_request_s_field() -> None:
 
 
 class PlainRequest(Request, of=LongSpring):
-    """A request with the inputs of a spring at its root. None of these inputs is declared again."""
+    """A request whose own fields are the inputs of a spring. None of these inputs is declared again."""
 
     def inputs(self) -> LongSpring:
         return self.si(LongSpring)

@@ -31,7 +31,7 @@ BODIES = {
 
 
 def fzg(stage: int) -> dict[str, Any]:
-    """Return a request for FZG gears of type A at the load of a stage. The oil fails at the same stage."""
+    """Return a request for FZG gears of type A, loaded as in a stage; the oil is one that fails at this stage."""
     pinion = {"teeth": 16, "profile_shift": 0.8532, "addendum": (88.8 / 2 - 36) / 4.5 - 0.8532}
     wheel = {"teeth": 24, "profile_shift": -0.5, "addendum": (112.5 / 2 - 54) / 4.5 + 0.5}
     return {
@@ -224,7 +224,7 @@ def test_from_a_data_sheet_to_a_safety_factor_in_one_request() -> None:
         (
             "/v1/scuffing",
             {"temperatures": {"bulk_method": "estimated", "bulk_c": 90}},
-            "bulk_c and an estimated bulk temperature are both given; leave bulk_c out, or set bulk_method to given",
+            "bulk_c is given, but bulk_method asks for an estimated bulk temperature; leave out bulk_c or bulk_method",
         ),
         (
             "/v1/scuffing",

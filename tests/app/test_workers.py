@@ -57,7 +57,7 @@ class Processes:
             return answer
 
     async def answer(self, name: str) -> None:
-        """End the call with this name. The result of the call is its name."""
+        """End the call that has this name, with the name as its result."""
         self.calls[name].set_result((name, []))
         await settled()
 

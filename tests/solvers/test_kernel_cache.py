@@ -49,6 +49,7 @@ def run(package: Path, program: str, **variables: str) -> subprocess.CompletedPr
     """Run a program in a new process. The cache folder is beside the package."""
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
     environment["NUMBA_CACHE_DIR"] = str(package.parent / "cache")
+    environment["PYTHONDONTWRITEBYTECODE"] = "1"  # Python would miss a second edit of the same length within a second
     command = [sys.executable, "-c", program]
     return subprocess.run(
         command, cwd=package.parent, env=environment | variables, check=True, capture_output=True, text=True

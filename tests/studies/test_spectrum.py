@@ -74,7 +74,7 @@ def test_lines() -> None:
 def test_one_case_without_tolerances() -> None:
     """The probability is P = Phi((y - m) / s) for the output y and a limit with mean m and deviation s.
 
-    Nothing scatters, so that there is no standard error and no interval.
+    Without tolerances the probability is exact, so there is no standard error and no interval.
     """
     header, end = solved(coupling(limits=[above(COAXIAL, 3000, 400)]))
     (limit,) = end["limits"]

@@ -13,7 +13,7 @@ from app.studies.runner import Clock, Line, PoolLost, guarded
 
 
 def lines_of(*steps: float | Exception, progress_s: float = 2.0) -> list[Line]:
-    """Return the lines of a study. `steps` holds the times [s] before the lines, and exceptions to raise."""
+    """Return the lines of a study. Each of `steps` is either the wait [s] before a line, or an exception to raise."""
     closed = []
 
     async def study() -> AsyncGenerator[list[Line], None]:

@@ -198,7 +198,7 @@ def check_no_jump(random: Generator) -> None:
         factors = factors[factors * inputs.coupling.pressure_angle < 0.78]
 
     def at(factor: float) -> tuple[dict[str, tuple[float, float]], bool]:
-        """Return every number, and True if the contact stays on the tooth."""
+        """Return all numbers of the mesh, and whether the contact stays on the tooth."""
         point = varied(inputs, group, name, factor)
         result = solve(point)
         return numbers(result), result.kinematics.max_contact_travel < point.coupling.face_width / 2.0

@@ -223,7 +223,7 @@ def _steps_out_of_line(found: list[dict[str, tuple[float, float]] | None]) -> di
 def _jump(
     numbers: Callable[[float], dict[str, tuple[float, float]] | None], number: str, low: float, high: float
 ) -> float:
-    """Zoom into the interval, and return the largest change of the number that remains, relative to its scale.
+    """Zoom into the interval, and return the change of the number that is left, divided by the scale of the number.
 
     Each zoom keeps the eighth of the interval with the largest change. Return 0 if the number cannot be computed at a
     point of the interval.

@@ -179,7 +179,7 @@ def check_path(inputs: ScuffingInputs, every: int = 1) -> Scuffing:
 
 
 def search_paths(rng: np.random.Generator) -> None:
-    """Draw a pair and compare its path with every tenth point of the path, which is solved alone.
+    """Draw a pair, solve its path, solve every tenth point again on its own, and compare the results.
 
     A pair that the solver refuses passes the check.
     """

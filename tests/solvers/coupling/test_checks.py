@@ -29,7 +29,7 @@ def test_random_couplings(check: Callable[[Generator], None], seed: int, times: 
 
 
 def test_the_largest_force_is_not_among_the_highest_samples() -> None:
-    """In this coupling with 80 teeth, the sample beside the largest force is only the fourteenth highest peak."""
+    """The largest force lies between two samples; the sample beside it is only the fourteenth highest of all peaks."""
     (inputs,) = stored(CouplingInputs, "coupling", "largest force not among the highest samples")
     check_resolution_of(inputs)
 

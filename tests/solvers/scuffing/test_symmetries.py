@@ -109,7 +109,7 @@ def flash_at(design: LoadDistributionInputs, found: Scuffing, profile: float, fa
 
 @examples(FEW, MANY, designs())
 def test_a_pair_is_as_safe_the_other_way_round(design: LoadDistributionInputs) -> None:
-    """A pair is as safe if the wheel drives instead of the pinion.
+    """The safety of a pair stays the same if the wheel drives instead of the pinion.
 
     The path then leads from E to A, and the other end of the face meshes first. The map has its default size of 201 x
     101 points. On a map of 21 x 11 points, the search along a slanting ridge misses 0.3 % of the largest temperature.

@@ -216,8 +216,8 @@ def test_rigid_film_of_martin() -> None:
 def test_light_load_is_the_film_between_rigid_cylinders(m: float, thermal: bool) -> None:
     """The film agrees to within 0.2 % with the quadrature for a film that begins at the first node of the mesh.
 
-    Because the film begins there, it is 4 to 5 % thinner than Martin's film. In a thermal film with 20 intervals, 1/400
-    less oil flows under pressure, and the film is 1/400 thicker.
+    Because the film begins there, it is 4 to 5 % thinner than Martin's film. If the thermal film is
+    divided into 20 intervals, the computed flow under pressure is 1/400 too small, and the film is 1/400 thicker.
     """
     result = rigid_contact(m, thermal)
     assert result.film.minimum is not None
