@@ -14,7 +14,7 @@ def main() -> None:
     """Run the command line.
 
     While uvicorn serves, uvicorn itself handles Ctrl-C. After uvicorn has stopped serving, uvicorn sends the signal of
-    Ctrl-C to this process once more.
+    Ctrl-C to this process once more. This second signal ends the process.
     """
     # Ctrl-C must not raise an exception: a module that is being imported could lose the exception or change its type.
     signal.signal(signal.SIGINT, lambda *_: os._exit(INTERRUPTED))

@@ -81,13 +81,21 @@ def _thermal_path(request: Any) -> Cost:
 
 
 def _checked_lines(request: Any) -> Cost:
-    """Estimate the time to solve the feature line and, if the whole flank is checked, the hottest profile line."""
+    """Estimate the time to solve the contacts of a scuffing check.
+
+    The contacts are solved along the feature line (the diagonal from A1 to E2). If the whole flank is checked, the
+    contacts are also solved along the profile line through the hottest place of the flank.
+    """
     path = _thermal_path(request)
     return Cost((2 if request.model.line == "flank" else 1) * path.seconds, path.field)
 
 
 def _two_thermal_paths(request: Any) -> Cost:
-    """Estimate the time to solve the contacts of a gear unit along two lines, in each of the requested states."""
+    """Estimate the time to solve the contacts of a gear unit in all requested states.
+
+    In each state (hot or cold) the contacts are solved along two lines: the feature line, and the profile line through
+    the hottest place of the flank.
+    """
     path = _thermal_path(request)
     return Cost(2 * len({*request.states}) * path.seconds, path.field)
 
@@ -123,7 +131,7 @@ LINE_CONTACT = Stage(
 DRIVE_TRAIN = Stage("drive train", 13, ("starter-turbo-gear-drive-train",))
 
 STAGES = (COUPLING, SLEEVE, LOADS, PUMPING, DRIVE_TRAIN, LINE_CONTACT)
-"""The stages in the order in which their endpoints open."""
+"""The stages in the order in which a single process compiles them."""
 
 CALCULATIONS = (
     Calculation(

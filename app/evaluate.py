@@ -241,8 +241,8 @@ def _assumptions(
     The dictionary holds the field, the value used and the reason for the assumption.
 
     `derived` holds the values that the calculation used. The keys are the names of the fields. Groups and lists in
-    `derived` are named like the sections of the request. `unused` holds the dotted names of unused fields. The
-    sections that contain `section` have marked these fields as unused.
+    `derived` are named like the sections of the request. `unused` holds the dotted names of the fields that the
+    sections around `section` mark as unused.
     """
     unused |= {prefix + name for name, left_out in section.unused().items() if left_out}
     for member in members(type(section)):

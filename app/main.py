@@ -37,7 +37,7 @@ logger = logging.getLogger("tribodrive")
 
 
 def create_app() -> FastAPI:
-    """Create the application with the settings of the environment."""
+    """Create the application. The settings are read from environment variables."""
     limits = settings()
 
     @asynccontextmanager

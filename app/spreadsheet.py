@@ -1,4 +1,4 @@
-"""Conversion of rows into CSV. Spreadsheets do not take a cell of this CSV for a formula."""
+"""Conversion of rows into CSV. Spreadsheets do not interpret the cells of this CSV as formulas."""
 
 import csv
 import re
@@ -22,7 +22,7 @@ def csv_of(rows: Iterable[Iterable[Any]], digits: int | None = None) -> bytes:
 
 
 def _cell(value: Any, digits: int | None) -> Any:
-    """Return a value as a cell that spreadsheets do not take for a formula."""
+    """Return a value as a cell that spreadsheets do not interpret as a formula."""
     if isinstance(value, bool):
         return "true" if value else "false"
     if isinstance(value, float) and digits is not None:

@@ -12,10 +12,13 @@ from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent
 NO_CALCULATION = "published"
-"""The package of published numbers for comparison; this package does not affect results."""
+"""Name of the package with published numbers for comparison. This package does not affect results."""
 DECLARE = frozenset({"quantity", "Quantity", "described"})
 LABELS = frozenset({"title", "symbol", "source", "text", "default_text", "assumed", "index"})
-"""Keyword arguments of a declaration that are text and do not affect results; positional arguments are text too."""
+"""Names of the keyword arguments of a declaration that are only text and do not affect results.
+
+All positional arguments of a declaration are also only text. The digest leaves out all these arguments.
+"""
 
 
 def cache_base() -> Path:
@@ -44,7 +47,7 @@ def package_digest() -> str:
 
 
 def digest_of(package: Path) -> str:
-    """Return the SHA-256 hash of all modules in `package`.
+    """Return the SHA-256 hash of all modules in `package`, except the modules in `NO_CALCULATION`.
 
     The hash is computed from the names and the syntax trees of the modules. A syntax tree contains no comments and no
     layout. Docstrings and the labels of quantities (title, symbol and similar text) are removed from the tree. An edit

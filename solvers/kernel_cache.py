@@ -25,11 +25,11 @@ logger = logging.getLogger(__name__)
 
 
 def _writable(folder: Path) -> Path | None:
-    """Create the folder if necessary, and return its path.
+    """Create the folder if necessary, and return its path; return None if the folder cannot be used.
 
-    The parent of this folder holds one folder for each version. The function keeps the `KEPT_FOLDERS` folders that were
-    used last, and deletes all older folders. If files cannot be written to the folder, or if the disk is nearly full,
-    the function logs a warning and returns None.
+    If files cannot be written to the folder, or if the disk is nearly full, the function logs a warning and returns
+    None. Otherwise the function tidies the parent folder, which holds one folder for each version of the solvers and of
+    numba: the `KEPT_FOLDERS` folders that were used last remain, and all older folders are deleted.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)

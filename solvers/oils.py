@@ -136,7 +136,10 @@ MINERAL_VISCOSITY_100 = {
     460: 30.6e-6,
     680: 38.8e-6,
 }
-"""Typical kinematic viscosity at 100 C [m^2/s] of a mineral oil of each ISO 3448 grade; the index is 94 to 102."""
+"""Typical kinematic viscosity at 100 C [m^2/s] of a mineral oil of each ISO 3448 grade.
+
+The viscosity index of these oils is 94 to 102.
+"""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,4 +1,4 @@
-"""Names of the literature that quantities refer to."""
+"""Short names of the sources to which the declarations of quantities refer."""
 
 PAHL = "Pahl 1978"
 MILIAN = "Milian 2004"

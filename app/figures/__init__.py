@@ -27,7 +27,7 @@ def written(figure: Figure, image_format: Format, theme: ThemeName) -> bytes:
     figure : Figure
         The data of the figure.
     image_format : {"svg", "png", "pdf", "csv"}
-        Format of the image; CSV writes the table.
+        Format of the file; "csv" is the table, the other formats are images.
     theme : {"light", "dark"}
         Colours of the image.
 

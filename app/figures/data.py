@@ -250,9 +250,9 @@ class Panel:
 class Figure:
     """Panels below a title and a finding. The title names the figure; the finding states the result of the figure.
 
-    If `beside` is set, the panels stand side by side. If the title is empty, the title of the declaration is used. The
-    source is always the source in the declaration. `unsolved` is the number of points without a solution. A `narrow`
-    figure fits into a column of a report.
+    If `beside` is set, the panels stand side by side. If the title is empty, `Declaration.figure` uses the title of
+    the declaration. The source always comes from the declaration. `unsolved` is the number of points without a
+    solution. A `narrow` figure fits into a column of a report.
     """
 
     finding: str

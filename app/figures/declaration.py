@@ -38,7 +38,10 @@ class Declaration:
     asked_value: str = ""
 
     def is_asked(self, request: Request) -> bool:
-        """Return True if the request has the section or value that the figure needs."""
+        """Return True if the request has the section or value that the figure needs.
+
+        If `asked_value` is given, the value in the request must also be equal to `asked_value`.
+        """
         if not self.asked_by:
             return True
         value = attrgetter(self.asked_by)(request)

@@ -62,5 +62,8 @@ def extreme_of_map(chart: Map, wording: Callable[..., str] = number, *, least: b
 
 
 def unnamed(items: Iterable[Named]) -> list[Named]:
-    """Return the levels or spans without their names, for panels below the panel that shows the names."""
+    """Return copies of levels or spans without their names.
+
+    If several panels show the same levels or spans, only one of the panels shows the names.
+    """
     return [replace(item, name="") for item in items]

@@ -35,7 +35,7 @@ class SpectrumCase(NamedTuple):
 
 
 class Limited(NamedTuple):
-    """A limited output over the spectrum.
+    """An output that has a limit, in all cases of the spectrum.
 
     `found` is the study's result for the limit. Its entries are the side of the limit that counts as a violation
     ("above" or "below"), the mean and the standard deviation of the limit, the probability of violating the limit, and
@@ -65,7 +65,7 @@ def chance_text(chance: dict[str, Any]) -> str:
 
 
 def sentence(limit: dict[str, Any]) -> str:
-    """Return a sentence that states the probability of an output above or below its limit."""
+    """Return a text with the probability that the output violates its limit, and with the resulting risk."""
     interval = None if is_tiny(limit) else limit["interval"]
     reach = f", 90 % interval {percent(interval[0])} to {percent(interval[1])}" if interval else ""
     return f"probability of being {limit['side']} the limit {chance_text(limit)}{reach}: {limit['risk']} risk"
@@ -137,7 +137,8 @@ def chances(limited: Limited) -> Figure:
 def deciding(limited: Limited) -> Figure:
     """Draw, for each case, the share of machines for which this case is the worst.
 
-    Also draw the rank correlation of each tolerance with the output in the worst case.
+    Also draw the rank correlation of tolerances with the output in the worst case. At most `NAMED` tolerances are
+    drawn, namely those with the strongest correlation.
     """
     rows = [Row(case.name, 100.0 * case.decides) for case in limited.cases if case.decides is not None]
     if not rows:

@@ -39,8 +39,8 @@ STAR = f"{NO_BREAK}*"
 class Coordinate:
     """A varied field and its values. The values are either words, or numbers in rising order.
 
-    `own` is the value of the field in the case itself. A field `scatters` if manufacture or measurement leaves its
-    value open, so that a design has to tolerate the scatter.
+    `own` is the value of the field in the case itself. `scatters` is True if manufacture or measurement determines the
+    value of the field only within a tolerance. A design then has to tolerate all values of the field.
     """
 
     axis: Axis
@@ -59,9 +59,9 @@ class Grid:
     """Values of an output over one field, `[x]`, or over two fields, `[x][y]`.
 
     NaN stands for a point that has no value, or that is not calculated yet. If `greatest` is set, greater values are
-    better. `limit` is the limit of the output. If there is a single field, `invalid` and `doubtful` have an item for
+    better. `limit` is the limit of the output. If only one field is varied, `invalid` and `doubtful` have an item for
     each value of this field. An item of `invalid` is the reason why the output is not valid at this value, or None if
-    the output is valid. An item of `doubtful` is True if the point is outside a limit of validity.
+    the output is valid. An item of `doubtful` is True if this value leads beyond a limit of validity.
     """
 
     x: Coordinate
@@ -184,7 +184,7 @@ def _finding(grid: Grid) -> str:
 
 
 def _ordinate(grid: Grid) -> Axis:
-    """Return the axis of the output. The axis starts at zero unless the output changes little."""
+    """Return the axis of the output. The axis includes zero unless the output changes little."""
     finite = np.abs(grid.values[np.isfinite(grid.values)])
     flat = finite.size > 0 and finite.min() > FLAT * finite.max()
     return replace(grid.output, magnitude=not flat)

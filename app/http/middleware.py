@@ -33,7 +33,7 @@ logger = logging.getLogger(REQUEST_LOG)
 
 
 class Protection:
-    """The layer around the application."""
+    """Outermost layer, which receives every request and calls the application."""
 
     def __init__(self, app: ASGIApp, settings: Settings) -> None:
         self._app = app

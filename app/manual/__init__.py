@@ -39,12 +39,12 @@ class Chapter:
 
     @property
     def title(self) -> str:
-        """The first heading."""
+        """The heading of the chapter."""
         return self.text.partition("\n")[0].removeprefix("# ")
 
     @property
     def lead(self) -> str:
-        """The first paragraph, in one line."""
+        """The first paragraph of the chapter, without line breaks."""
         return " ".join(self.text.split("\n\n")[1].split())
 
     @property

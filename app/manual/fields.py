@@ -29,7 +29,7 @@ class Entry(NamedTuple):
 
     @property
     def path(self) -> str:
-        """The dotted path of the field: the first cell, without the backticks."""
+        """The dotted path of the field: the first cell of the row, without the backticks."""
         return self.cells[0].strip("`")
 
     @property

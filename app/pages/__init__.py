@@ -2,7 +2,7 @@
 
 Pages that show a case are generated from the schema of the requests and answers.
 
-typed        numbers as people type them, and their texts in links
+typed        numbers as people type them, and the same numbers as texts in links
 query        the query string that holds a case
 form         the fields of a form with the typed text, the meaning and the fault of each field
 asked        the case that a query or a form asks for

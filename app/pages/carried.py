@@ -20,10 +20,10 @@ from app.schema.model import Documented
 SUBJECTS = {"gears": "pair", "coupling": "coupling"}
 """The sections that several calculations share. A section describes a subject: a gear pair or a coupling."""
 LOAD, OPERATION = "load.", "operation."
-"""Two prefixes of the names of fields in one section.
+"""Prefixes of field names. Both prefixes denote the same section, which has two names.
 
-The section is called `load` in requests of scuffing and in the query field `pair`. The section is called `operation` in
-the other requests.
+Requests of scuffing and the query field `pair` call the section `load`. The other requests call the section
+`operation`.
 """
 
 
@@ -66,10 +66,10 @@ def _use(asked: Asked, other: Calculation) -> Use:
 
 
 def _common(calculation: Calculation, name: str) -> str:
-    """Return the shared name of a field.
+    """Return the shared name of the field that a calculation calls `name`.
 
-    For calculations of gears, the shared name is the name of the field in requests of scuffing. If these requests do
-    not have the field, the shared name is `name`.
+    In calculations of gears, the prefix `operation` becomes `load` if requests of scuffing have a field of the new
+    name. In all other cases the shared name is `name`.
     """
     if subject_of(calculation) != "pair" or not name.startswith(OPERATION):
         return name

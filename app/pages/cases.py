@@ -66,7 +66,7 @@ class Asked:
 
     @property
     def calculation(self) -> Calculation:
-        """The calculation of the case."""
+        """The calculation, that is, the endpoint of the API, to which the case belongs."""
         return BY_PATH[f"/v1{self.path}"]
 
     @property
@@ -124,8 +124,9 @@ class Asked:
     def written(self) -> str:
         """The value of the form's hidden field `written`.
 
-        The service fills in the form with texts. Some of these texts would have another meaning if a user typed them.
-        The value of `written` holds only such texts, with the names of their fields.
+        The server fills in the form with texts. If a user typed the same texts, the server would read some of them
+        differently. The hidden field holds only these ambiguous texts, with the names of their fields. When the form is
+        sent, the server thus knows which of the ambiguous texts nobody typed.
         """
         return written_of(self.calculation.request, self.pairs)
 

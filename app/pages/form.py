@@ -1,4 +1,7 @@
-"""The form of a case, made from the schema: fields with their typed texts, their meanings and their faults."""
+"""The form of a case, made from the schema.
+
+The form shows each field with the text that the user typed, the meaning of the field, and the faults of the field.
+"""
 
 from collections.abc import Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
@@ -198,7 +201,7 @@ def _section(title: str, blocks: Iterable[Block], state: State, paths: list[str]
 
 
 def _count(names: Iterable[str], path: str) -> int:
-    """Return the number of names at or below a path."""
+    """Count the `names` that are equal to `path` or lie below `path`."""
     return sum(name == path or name.startswith(f"{path}.") for name in names)
 
 

@@ -42,7 +42,7 @@ FIXED = {
     "html_block": "",  # comments that mark generated parts in the file
     "html_inline": "",  # anchors for links between the files; the pages have anchors of their own
 }
-"""The Markdown elements that always become the same HTML, and this HTML."""
+"""Markdown elements with constant HTML. Each of these elements always becomes the HTML given here."""
 
 
 @lru_cache(maxsize=4)
@@ -100,7 +100,8 @@ def method_of(chapter: Chapter) -> dict[str, Any]:
 def _results_at() -> dict[str, str]:
     """Return a list of results, as HTML, for each place of the manual that describes how results are computed.
 
-    The keys are the addresses of the places. The page shows a list only if the reader followed a link to its place.
+    A place is a section or an equation. The keys are the addresses of the places. A page shows the list of a place only
+    if the reader followed a link to this place.
     """
     named = dict[str, dict[str, None]]()
     for calculation in CALCULATIONS:
@@ -185,7 +186,8 @@ def shown_studies() -> dict[str, ShownStudy]:
 def _html(text: str, root: str, chapter: str | None = None) -> Markup:
     """Convert Markdown of the manual to HTML, and put the prefix `root` before addresses of the service.
 
-    If `chapter` is the name of a chapter, each place of the chapter gets the list of the results computed there.
+    `chapter` is the name of a chapter. If `chapter` is given, each section and each equation of the chapter is followed
+    by the list of the results that the section or equation computes.
     """
     html = _markdown().render(text, {"chapter": chapter})
     return Markup(re.sub(r'\b(href|src|srcset)="/', rf'\1="{root}/', html))  # noqa: S704
@@ -245,7 +247,11 @@ def _figures_stand_alone(state: Any) -> None:
 def _math_block(
     _self: RendererHTML, tokens: Sequence[Token], place: int, _options: OptionsDict, environment: dict[str, Any]
 ) -> str:
-    """Return the HTML of an equation; if the equation has a number, the number is shown and used as the anchor."""
+    """Return the HTML of an equation.
+
+    If the equation has a number, the number is shown and used as the anchor. The list of the results that the equation
+    computes then follows.
+    """
     text = tokens[place].content
     tag = _TAG.search(text)
     math = _mathml(_TAG.sub("", text).strip(), "block")
@@ -261,13 +267,16 @@ def _math_block(
 def _heading_close(
     renderer: RendererHTML, tokens: Sequence[Token], place: int, options: OptionsDict, environment: dict[str, Any]
 ) -> str:
-    """Return the HTML at the end of a heading."""
+    """Return the HTML at the end of a heading, and the list of the results that the section computes."""
     section = str(tokens[place - 2].attrs.get("id", ""))
     return renderer.renderToken(tokens, place, options, environment) + _results(environment, section)
 
 
 def _results(environment: dict[str, Any], section: str) -> str:
-    """Return the list of the results, as HTML, that are computed in a `section` of the chapter in `environment`."""
+    """Return a list, as HTML, of the results that a section or an equation computes; empty if there are no results.
+
+    `section` is the anchor of the section or equation. `environment` holds the name of the chapter.
+    """
     return _results_at().get(f"/manual/{environment.get('chapter')}#{section}", "")
 
 

@@ -32,7 +32,7 @@ def start_page(root: str) -> str:
 def _entry(calculations: list[Calculation]) -> dict[str, Any]:
     """Return what the start page shows of a model: a question, a figure and the calculations of the model.
 
-    The question is the title of an example of the model's first calculation.
+    The question is the title of an example. This example belongs to the first calculation of the model.
     """
     first = calculations[0]
     of_first = examples_of(first)
@@ -72,7 +72,8 @@ def unit_page(root: str, unit: dict[str, Any], name: str = "", sha256: str = "")
 def _titled(field: str, asked: Iterable[str]) -> str:
     """Return the title of an endpoint, or of a field of a request.
 
-    The title of a field is first looked up in the requests of the endpoints `asked`, then in all other requests.
+    `field` is the dotted path of the field. The title is first looked up in the requests of the endpoints whose paths
+    are in `asked`, then in the requests of all other endpoints. `field` may also be the path of an endpoint.
     """
     if field in BY_PATH:
         return BY_PATH[field].title

@@ -57,8 +57,8 @@ The text of this query field is the name of the chosen field.
 WRITTEN = "written"
 """The name of a hidden field that only forms send.
 
-The content of this field is a query string. The string holds those texts that the server wrote into the form and would
-read differently if a user typed them.
+The content of this field is a query string with texts that the server wrote into the form. The string contains only the
+texts that would have another meaning if a user typed them.
 """
 MOST_FIELDS = 1000  # chosen: many more than the longest form has
 DEEPEST = 12  # largest number of parts of a name; the names of all fields have fewer parts
@@ -135,9 +135,10 @@ def _in_link(model: type[Documented], name: str, text: str, others: dict[str, st
 
 
 def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
-    """Return the fields as the link of a case contains them.
+    """Return the fields in the form that the link of a case contains.
 
-    Empty fields, and fields that a choice excludes, are left out. The items of lists of sections are renumbered.
+    If a field is chosen (see `PICK`), the fields that must be empty beside this field are left out. Empty fields and
+    the choices themselves are also left out. The items of lists of sections are renumbered.
     """
     picked = {text for name, text in pairs if name.startswith(PICK)}
     kept: Pairs = []
@@ -198,7 +199,7 @@ def body_of(model: type[Documented], pairs: Pairs) -> dict[str, Any]:
 
 
 def pairs_of(content: Any, name: str = "") -> Pairs:
-    """Return the fields of a request body; fields that are null are left out, because they are empty in a form."""
+    """Return the fields of a request body without the null fields, because a null field is empty in a form."""
     inner: Iterable[tuple[Any, Any]]
     match content:
         case None | []:
@@ -217,7 +218,7 @@ def pairs_of(content: Any, name: str = "") -> Pairs:
 
 
 def link(path: str, pairs: Pairs, **views: str | None) -> str:
-    """Return `path` with the fields and views as its query."""
+    """Return `path` with a query that contains the fields `pairs` and those `views` that have a text."""
     query = urlencode([*pairs, *((name, text) for name, text in views.items() if text)], safe=",:", errors="replace")
     return f"{path}?{query}" if query else path
 
@@ -250,7 +251,7 @@ def _listed(leaf: Leaf, text: str) -> list[Any]:
 
 
 def _with_lists(model: type[Documented], content: Any, path: str = "") -> Any:
-    """Replace each object whose keys are indices by a list or a matrix, and return the new content."""
+    """Return the content with a list or a matrix in place of each object whose keys are indices."""
     if not isinstance(content, dict):
         return content
     inner = {name: _with_lists(model, value, f"{path}.{name}".lstrip(".")) for name, value in content.items()}
@@ -262,11 +263,11 @@ def _with_lists(model: type[Documented], content: Any, path: str = "") -> Any:
 
 
 def _matrix(elements: dict[str, Any]) -> Any:
-    """Return the matrix whose elements are given by row and column.
+    """Return a matrix as a list of rows; `elements` holds the elements by the index of the row and of the column.
 
-    If only the first element is given, return this element; it stands for a multiple of the unit matrix. Missing
-    elements become None, so that the validator reports them. If a name is not an index of the matrix, return the
-    elements unchanged.
+    If only the first element is given, return this element, which stands for a multiple of the unit matrix. A missing
+    element becomes None, so that the validator reports the missing element. If a key of `elements` is not an index of
+    the matrix, return `elements` unchanged.
     """
     places = [str(place) for place in range(SIDE)]
     rows = [elements.get(place, {}) for place in places]

@@ -45,7 +45,7 @@ class Cell(NamedTuple):
 class Row(NamedTuple):
     """A line in the table of a section's inputs: one input, with a cell for each item of the section.
 
-    `cells` holds the cells under the indices of the items. A section that is not a list has a single item with index 0.
+    `cells` maps the index of an item to the cell of this item. A section that is not a list has one item, with index 0.
     """
 
     leaf: Leaf
@@ -105,11 +105,11 @@ def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Secti
 
 
 def _left(sections: list[Section]) -> list[tuple[str, list[tuple[Leaf, str, bool]]]]:
-    """Return the title of each section, and those inputs of the section that have their default value or no value.
+    """Return the titles of the sections, and the inputs of each section that have their default value or no value.
 
-    Every input comes with a text and a boolean. If the boolean is True, the input has a default value, and the text is
-    this value. If the boolean is False, the input has no value, and the text says what is used instead. For example,
-    the text names the quantity from which the value is estimated.
+    Sections without such inputs are left out. Every input comes with a text and a boolean. If the boolean is True, the
+    input has a default value, and the text is this value. If the boolean is False, the input has no value, and the text
+    says what is used instead. For example, the text names the quantity from which the value is estimated.
     """
     left = []
     for title, _, rows in sections:
@@ -173,7 +173,10 @@ def _given(case: Case) -> dict[str, Any]:
 
 
 def _inputs(case: Case, pairs: Pairs) -> list[Section]:
-    """Return the inputs of all sections. Each input has the value that was used, and the origin of this value."""
+    """Return the inputs by section. Each input has the value that was used, and the origin of this value.
+
+    An input without a value has a text instead of the value, or is left out if there is no such text.
+    """
     typed = {_element.sub("", name) for name, _ in pairs}
     assumed = {assumption.field: assumption.value for assumption in case.response.assumptions}
     used = resolved(case.response) | assumed

@@ -53,7 +53,7 @@ class Row:
 
     @property
     def value(self) -> str:
-        """All items as one text."""
+        """All items of the row as one text."""
         return ", ".join(self.items)
 
 
@@ -90,7 +90,7 @@ def _title_of_item(member: Branch, index: int) -> str:
 
 
 def values_by_path(response: Documented | None) -> dict[str, Any]:
-    """Return all results, with their paths as keys; empty if there is no response."""
+    """Return a dictionary of all results under their paths. Without a response the dictionary is empty."""
     return {entry.path: entry.value for entry in entries(response)} if response is not None else {}
 
 
@@ -125,7 +125,7 @@ def differences(request: type[Documented], response: Response, before: Response)
 
 
 def assumptions(request: type[Documented], response: Response) -> list[Row]:
-    """Return our own defaults that the answer used, with the reasons for these defaults."""
+    """Return the defaults chosen by this project that the answer used, with the reason for each default."""
     return [
         replace(_row(leaf, assumption.field, assumption.value, label=leaf.title), remark=assumption.reason)
         for assumption in response.assumptions
@@ -143,7 +143,7 @@ def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, dig
 
 
 def _named(leaf: Leaf, items: tuple[str, ...]) -> tuple[str, ...]:
-    """Put a name before each item if the declaration has names of items, such as the names of components."""
+    """Put a name before each item if the declaration of the field names the items, such as components of a vector."""
     names = (leaf.declared.index or "").split(", ")
     return tuple(map(" ".join, zip(names, items, strict=True))) if len(names) == len(items) > 1 else items
 
@@ -207,9 +207,10 @@ def resolved(response: Response) -> dict[str, Any]:
 def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> list[Row]:
     """Return the headline numbers, sorted by rank.
 
-    If several numbers have the same rank, only the number with the worst verdict is returned. If several of these
-    numbers have the worst verdict, only the largest of them is returned. If a warning makes the answer doubtful, the
-    level `near` replaces the level `good`.
+    If several numbers have the same rank, only the number with the worst verdict is returned. Only verdicts that are
+    part of the answer count here; comparisons with a limit do not count. If several numbers of the same rank have the
+    worst verdict, the largest of these numbers is returned. If a warning makes the answer doubtful, the level `near`
+    replaces the level `good`.
     """
     values, old = values_by_path(response), values_by_path(before)
     judged = verdicts(response) if isinstance(response, Response) else {}

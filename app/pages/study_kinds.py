@@ -1,7 +1,7 @@
-"""The kinds of study. Each module of `app.studies.kinds` describes one kind, and has a `PAGE`.
+"""The kinds of study. Each module of `app.studies.kinds` describes one kind; `PAGE` in the module is the page class.
 
-The modules are imported when `study_pages` is called for the first time. An import at the start would be circular: all
-pages have links to studies, and the pages of studies consist of parts of other pages.
+The modules are imported when `study_pages` is called for the first time. An import at the top of this file would be
+circular: all pages have links to studies, and the pages of studies consist of parts of other pages.
 """
 
 import pkgutil
@@ -29,7 +29,10 @@ class StudyLink(NamedTuple):
 
 @cache
 def study_pages() -> tuple[type[Any], ...]:
-    """Return the `PAGE` of every kind of study, in the order of their links. A `PAGE` is a subclass of `StudyPage`."""
+    """Return the page classes of all kinds of study, in the order in which pages show the links to the studies.
+
+    A page class is a subclass of `StudyPage`.
+    """
     modules = (import_module(f"{package.__name__}.{module.name}") for module in pkgutil.iter_modules(package.__path__))
     return tuple(sorted((module.PAGE for module in modules), key=lambda page: page.link.place))
 

@@ -21,7 +21,7 @@ AROUND = (0.5, 1.5)  # ends of the range in which a derived value is varied, as 
 
 
 def study_links(calculation: Calculation) -> tuple[StudyLink, ...]:
-    """Return the links to all kinds of studies that the cases of a calculation have."""
+    """Return one link for each kind of study that can be run with the cases of a calculation."""
     links: tuple[StudyLink, ...] = tuple(page.link for page in study_pages())
     return tuple(study for study in links if study.endpoint in {None, calculation.path})
 

@@ -18,7 +18,7 @@ from app.pages.typesetting import cited, shown, symbol, typeset, words
 from app.schema.model import MODEL_VERSION
 
 ASSETS = {file.name: file.read_bytes() for file in files("app.pages").joinpath("static").iterdir()}
-"""The files to which pages refer. The keys are the names of the files."""
+"""The contents of the files to which pages refer. The keys are the names of the files."""
 
 
 def rendered(template: str, root: str, **context: Any) -> str:
@@ -48,7 +48,10 @@ def example_link(calculation: Calculation, example: Example) -> str:
 
 @cache
 def by_model() -> dict[str, list[Calculation]]:
-    """Return the calculations of each model. The drive train comes first, because it chains the other models."""
+    """Return the calculations of each model.
+
+    The drive train comes first, because the model of the drive train combines the other models.
+    """
     models: dict[str, list[Calculation]] = {"drive-train": []}
     for calculation in CALCULATIONS:
         models.setdefault(model_of(calculation), []).append(calculation)

@@ -1,4 +1,4 @@
-"""The views of a case: page, answer, figure and report. Workers make them and return them as bytes."""
+"""The views of a case: page, answer, figure and report. Workers make the views and return the views as bytes."""
 
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
@@ -27,7 +27,7 @@ from app.schema.fields import headlines, leaf_at
 
 @dataclass(frozen=True, slots=True)
 class Shown:
-    """A view as bytes. `keep` holds the answers that are to be kept, under their keys."""
+    """A view as bytes. `keep` holds the answers that the service stores for later views, under their keys."""
 
     content: bytes
     status: int = 200
@@ -91,7 +91,7 @@ def result(asked: Asked, media: Literal["json", "csv"]) -> Shown:
 
 
 def figure(asked: Asked, name: str, image_format: Format | Literal["json"]) -> Shown:
-    """Return the file of a figure. The JSON file holds the values that the script of the pages needs."""
+    """Return the file of a figure: an image, or a JSON file of the values that the script of the pages needs."""
     case, variant, _ = _both(asked)
     declaration = next(declaration for declaration in asked.calculation.figures if declaration.name == name)
     data = figure_of(declaration, case, variant)
@@ -133,10 +133,11 @@ def _asked_back(pairs: Pairs, faults: list[Fault]) -> list[Fault]:
 
 
 def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:
-    """Return those answers of the case and of the variant that are not kept yet.
+    """Return the answers of the case and of the variant that the service does not store yet.
 
     The keys are made by `key_of` from the fields of the case and from the fields of the variant. If the case is too
-    long for a link, both answers are also returned under keys made from the hashes of the case and of the variant.
+    long for a link, both answers are also returned under keys made from the hashes of the case and of the variant,
+    even if the service already stores these answers.
     """
     keep = {}
     for pairs, kept, answered in (asked.pairs, asked.kept, case), (asked.ref_pairs, asked.kept_ref, variant):
@@ -212,9 +213,8 @@ def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
 def _both(asked: Asked) -> tuple[Case, Case | None, str]:
     """Return the case, the variant, and the reason why the variant cannot be computed.
 
-    The page compares the case with the variant. If the query names no variant, the variant is None and the reason is
-    empty. If the variant cannot be computed, the variant is None and the reason says why. In all other cases the reason
-    is empty.
+    The page compares the case with the variant. If the query names no variant, or if the variant cannot be computed,
+    the variant is None. If the variant cannot be computed, the reason says why; otherwise the reason is empty.
     """
     case = solved(asked.calculation, asked.pairs, asked.kept)
     if not asked.ref and asked.kept_ref is None:

@@ -172,7 +172,7 @@ def _children(element: Any, tag: str) -> Iterator[Any]:
 
 
 def _is_of_model(component: Any) -> bool:
-    """Return True if a component is an item of the model's list of components. Load cases also have components."""
+    """Return True if a component is in the model's own list of components, and not in a load case."""
     parent = component.getparent()
     return parent is not None and _tag(parent) == "components"
 

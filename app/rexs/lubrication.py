@@ -72,8 +72,9 @@ class Lubrication:
     def _temperatures(self) -> None:
         """Fill in the oil temperature, the oil supply and the bulk temperature.
 
-        The bulk temperature is the mean of the bulk temperatures of both gears. If the file states no bulk temperature
-        of a gear, the bulk temperature of the stage is used.
+        The bulk temperature is the mean of the bulk temperatures of both gears. If the file states the bulk temperature
+        of only one gear, this temperature is used. If the file states no bulk temperature of the gears, the bulk
+        temperature of the stage is used.
         """
         for origin in self._stage.oil_origins:
             if self._stage.take(table.OIL_TEMPERATURE, origin) is not None:

@@ -122,7 +122,7 @@ class Modifications:
     def _relief_length(self, component: Component, kind: str, place: int) -> float | None:
         """Return the length of a relief along the line of action [mm], or None if the length is not known.
 
-        If the file does not state the length, it follows from the diameter at which the relief starts.
+        If the file does not state the length, the length is computed from the diameter at which the relief starts.
         """
         length = self._reading.number(component, f"{kind}_datum_length", "mm")
         if length is not None:

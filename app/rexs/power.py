@@ -199,8 +199,9 @@ class Train:
     def _stated_torque(self, load: Component, shaft: Component, speed: float | None, reading: Reading) -> float | None:
         """Return the torque [N m] of an external load about the axis of the unit, or None if the torque is not stated.
 
-        `shaft` carries the load, and `speed` is the speed of the shaft. If only the power is stated, the torque is
-        computed from the power. If the load case states only the power, a torque that the model states is ignored.
+        `shaft` carries the load, and `speed` is the speed of the shaft. If only the power is stated and the speed is
+        known, the torque is computed from the power. This also applies if the load case states only the power and the
+        model states a torque. If the load does not define the torque (`defines_torque`), the result is None.
         """
         if reading.flag(load, "defines_torque") is False:
             return None

@@ -30,7 +30,7 @@ SECTIONS = {
     SCUFFING: MESH | {"temperatures", "lubricant"},
     "/v1/pumping": {"gears"},
 }
-"""For each endpoint that calculates a single mesh, the sections of the draft that the request of the endpoint has."""
+"""For each endpoint that calculates a single mesh: names of the draft's sections that the request contains."""
 Vector = tuple[float, float, float]
 
 
@@ -41,7 +41,7 @@ class Axis(NamedTuple):
     direction: Vector
 
     def along(self, point: Vector) -> float:
-        """Return the coordinate of a point along the axis [mm]."""
+        """Return the coordinate of a point along the axis, measured from the origin of the axis [mm]."""
         return sum((a - b) * u for a, b, u in zip(point, self.origin, self.direction, strict=True))
 
     def apart(self, other: "Axis") -> float:
@@ -111,7 +111,7 @@ class Reading:
     def in_case(self, case: LoadCase | None) -> "Reading":
         """Return a reader of the same model in which the values of a load case replace the values of the model.
 
-        Both readers share their findings.
+        The new reader adds its findings to the findings of this reader.
         """
         reading = copy(self)  # the copy keeps the cached directions of the shafts
         reading.case, reading.used_of_case = case, set()
@@ -145,7 +145,7 @@ class Reading:
         return None if first is None else first.value
 
     def first_of(self, component: Component | None, names: Iterable[str], unit: str) -> "Number | None":
-        """Return the first number among these attributes of a component, converted to `unit`.
+        """Return the first number among the attributes `names` of a component, converted to `unit`.
 
         Values that are not numbers or cannot be converted are skipped. Return None if no value remains.
         """
@@ -213,7 +213,7 @@ class Reading:
         return {id_: 1.0 if cosine >= 0.0 else -1.0 for id_, cosine in cosines.items()}
 
     def ignored(self, components: Iterable[Component]) -> Iterator[Unused]:
-        """Yield the attributes of these components that have not been read."""
+        """Yield the attributes of `components` that have not been read, each with the reason why it is not used."""
         for component in components:
             for name in component.attributes:
                 if (component.id, name) not in self.used:
@@ -277,7 +277,7 @@ class Draft:
     assumed: dict[str, AssumedValue] = field(default_factory=dict)
 
     def put(self, path: str, value: Any, component: Component, attribute: str | None = None) -> None:
-        """Set a field to a value from the file."""
+        """Set a field to a value from the file, and record the component and the attribute that contain the value."""
         self.fields[path] = value
         self.origins[path] = component, attribute
 
@@ -287,7 +287,7 @@ class Draft:
         self.note(path, value, reason)
 
     def note(self, path: str, value: Any, reason: str) -> None:
-        """Record the reason for a field's value in the list of assumed values. The field itself is not changed."""
+        """Add a field, its value and the reason for this value to the assumed values. The field is not changed."""
         self.assumed[path] = AssumedValue(field=path, value=value, reason=reason)
 
     def lacks(self, path: str, component: Component | None, attribute: str | None, message: str) -> None:
@@ -301,8 +301,8 @@ class Draft:
     def take(self, row: Row, component: Component | None, prefix: str = "") -> float | None:
         """Copy a number from the file into a field of the draft.
 
-        `row` names the attributes of `component` that may contain the number, and it names the field. `prefix` is put
-        before the path of the field. Return the number, or None if the file does not contain the number.
+        `row` contains the path of the field, and the names of the attributes of `component` that may contain the
+        number. `prefix` is put before the path. Return the number, or None if the file does not contain the number.
         """
         number = self.reading.first_of(component, row.attributes, row.unit)
         if component is None or number is None:
@@ -313,9 +313,9 @@ class Draft:
     def request(self, endpoint: str, paths: Iterable[str]) -> dict[str, Any]:
         """Return a request of an endpoint. The request has the fields of the draft that are in `paths`.
 
-        Fields that the endpoint does not have are left out. If the endpoint rejects the value of a field, this field is
-        left out too: a finding states the permitted range, and the field is recorded as missing. If the endpoint
-        requires a field that has no value, this field is also recorded as missing.
+        Fields that the endpoint does not have are left out. If the endpoint rejects the value of a field, the field is
+        left out and recorded as missing, and a finding gives the reason. If the endpoint requires a field that has no
+        value, the field is recorded as missing.
         """
         replaced = endpoint == SCUFFING and SCUFFING_FACTOR in self.fields
         places = {

@@ -128,8 +128,8 @@ class StageDraft(Draft):
     def _driver(self) -> int | None:
         """Return the position of the driving gear in `pair`, or None if the driving gear is not known.
 
-        The driving gear follows from torque and speed. If torque and speed are not known, the driving gear is the gear
-        that the file marks as driving.
+        The driving gear follows from torque and speed. If torque and speed are not known, and the file marks exactly
+        one gear as driving, this gear is the driving gear.
         """
         by_power, pair = self.flow.driver(self.pair), self.pair
         stated = [place for place in (0, 1) for data in _gear_data(self.reading, pair, pair.gears[place])
@@ -210,7 +210,7 @@ class StageDraft(Draft):
         Return None if the position is not known. The file may state the position in two ways: as the origin of the
         part, which is the middle of the part's width, and as a coordinate on the shaft. If the file states both, the
         origin is used. If the two positions differ by half the width, the coordinate is the position of an end of the
-        part, and no fault is recorded. If they differ by any other amount, a fault is recorded.
+        part, and no finding is recorded. If the two positions differ by any other amount, a finding is recorded.
         """
         reading = self.reading
         stated = reading.number(part, table.POSITION)
@@ -239,7 +239,7 @@ class StageDraft(Draft):
         return base.along(axis.origin) + along * self.along(shaft)
 
     def along(self, shaft: Component) -> float:
-        """Return +1 if the u axes of a shaft and of the pinion's shaft have the same direction, else -1."""
+        """Return +1 if the u axis of a shaft has the same direction as the u axis of the pinion's shaft, else -1."""
         return self.reading.sense(shaft) * self.reading.sense(self.shafts[0])
 
     def involute(self, place: int) -> "Involute | None":
@@ -252,7 +252,7 @@ class StageDraft(Draft):
         return Involute(self.teeth[place], module, radians(angle), radians(helix), shift)
 
     def values_of(self, components: Iterable[Component], row: table.Row) -> list[tuple[float, Component]]:
-        """Return a pair (value, component) for every component that has a value for the row."""
+        """Return a pair (value, component) for every component that states the number `row`."""
         numbers = ((self.reading.number(component, row), component) for component in components)
         return [(value, component) for value, component in numbers if value is not None]
 
@@ -386,7 +386,8 @@ class StageDraft(Draft):
     def _of_flanks(self, place: int, row: table.Row, path: str) -> float | None:
         """Fill in a number that must be the same for both flanks, and return the number.
 
-        Return None if the file does not state the number for any flank.
+        If the numbers of the two flanks differ, record a finding and use the number of the left flank. Return None if
+        the file states no number for either flank.
         """
         values = self.values_of(self.flanks(place).values(), row)
         if not values:
@@ -424,9 +425,10 @@ class StageDraft(Draft):
         self.assume(path, ISO_53_A[name], f"the file gives no {name}; the value of ISO 53, profile A, is used")
 
     def _of_tool(self, tool: Component | None, row: table.Row, length_row: table.Row) -> float | None:
-        """Return a coefficient of the rack. The file states this coefficient in modules, or as a length.
+        """Return a coefficient of the rack in modules, or None if the file does not state the coefficient.
 
-        `row` is for the coefficient in modules, and `length_row` is for the length.
+        The file may state the coefficient (`row`), or a length (`length_row`). If the file states only the length, the
+        coefficient is the length divided by the module.
         """
         coefficient, length = self.reading.number(tool, row), self.reading.number(tool, length_row)
         module = self.fields.get(table.MODULE.field)
@@ -435,8 +437,8 @@ class StageDraft(Draft):
     def _from_diameter(self, place: int, row: table.Row) -> bool:
         """Fill in the addendum from the tip diameter, or the dedendum from the root diameter. Return True on success.
 
-        `row` decides which of the two diameters is used. An impossible diameter is recorded as a finding and is not
-        used.
+        `row` is `table.TIP_DIAMETER`, or else the row of the root diameter. An impossible diameter is recorded as a
+        finding and is not used.
         """
         path, gear = f"gears.{ROLES[place]}.{row.field}", self.gears[place]
         diameter, flank = self.reading.number(gear, row), self.involute(place)
@@ -535,9 +537,9 @@ class StageDraft(Draft):
         return 2.0 * pinion.module * sin(pinion.normal_angle) * total
 
     def working_distance(self) -> float | None:
-        """Return the centre distance [mm], or None if the centre distance is not possible or not known.
+        """Return the centre distance in the file [mm], or else the backlash-free centre distance.
 
-        If the file does not state the centre distance, the backlash-free centre distance is returned.
+        Return None if this centre distance is impossible, or if the geometry of one of the gears is not known.
         """
         pinion, wheel = self.involute(0), self.involute(1)
         if pinion is None or wheel is None:

@@ -28,7 +28,7 @@ UNITS = (
     {"m/s^2": 1.0},
     {"l/min": 1e-3 / 60.0, "l/s": 1e-3, "m^3/s": 1.0, "m^3/h": 1.0 / 3600.0},
 )
-"""The units of each quantity. The keys are the spellings in files, without blanks. The values are in SI units.
+"""The units of each quantity: the spelling of a unit in files, without blanks, and the size of this unit in SI units.
 
 A file states the unit of every attribute. The stated unit alone decides how a value is converted; the version of the
 file does not matter. The versions of REXS use different spellings and units. For example, degrees are "°" up to version
@@ -67,7 +67,7 @@ class Row(NamedTuple):
 
 
 APPLICATION_FACTOR, SCUFFING_FACTOR = "load.application_factor", "scuffing.application_factor"
-"""Two fields of a draft. If a draft has both fields, the second field is the application factor of /v1/scuffing."""
+"""Two fields of a draft. If a draft has both, only `scuffing.application_factor` is sent to /v1/scuffing."""
 STAGE = (
     Row("gears.centre_distance_mm", ("center_distance",), "mm"),
     Row(
@@ -103,7 +103,7 @@ HEAT = (
     Row("thermal_conductivity_w_per_m_k", ("thermal_conductivity",), "W/(mK)"),
     Row("specific_heat_j_per_kg_k", ("thermal_capacity",), "J/(kgK)"),
 )
-"""Thermal properties of gears and oils. A request has no such fields for shafts."""
+"""Thermal properties of gears and oils. No request has fields for the thermal properties of shafts."""
 OIL = (
     Row("kinematic_viscosity_40_mm2_per_s", ("viscosity_at_40_degree_celsius",), "mm^2/s"),
     Row("kinematic_viscosity_100_mm2_per_s", ("viscosity_at_100_degree_celsius",), "mm^2/s"),
@@ -349,13 +349,13 @@ IGNORED = (
 )
 """Reasons why attributes are not used.
 
-An entry has a pattern for the type of the component, a pattern for the name of the attribute, and the reason. The first
-entry whose two patterns match counts.
+An entry has a pattern for the type of the component, a pattern for the name of the attribute, and the reason. The
+reason is taken from the first entry in which both patterns match.
 """
 
 CUSTOM = "custom_tribodrive_"
 STANDARD_FROM = {"face_load_factor_contact_stress": 2}
-"""Attributes for results that are part of the standard, and the major version of REXS that introduced the attribute."""
+"""Result attributes that REXS itself defines, and the major version of REXS that introduced each attribute."""
 LOAD_RESULTS = (
     ("load.face_load_factor", "face_load_factor_contact_stress", "none"),
     ("load.max_line_load_n_per_mm", "maximum_line_load", "N / mm"),
@@ -372,7 +372,7 @@ MICROPITTING_RESULTS = (
 """Results about micropitting.
 
 These results need the failure load stage of a micropitting test. REXS has no attribute for this load stage, so the user
-enters it on the page.
+enters the load stage on the page of the calculation.
 """
 RESULTS = {
     "/v1/scuffing": (

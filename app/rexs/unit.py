@@ -152,7 +152,7 @@ def _described_by(stage: StageDraft) -> Iterator[Component]:
 
 
 class _Case(NamedTuple):
-    """A load case of a stage. `changes` holds the fields of the draft that have other values in this load case."""
+    """A load case of a stage. `changes` maps fields of the draft to the values of these fields in this load case."""
 
     name: str
     share: float
@@ -160,7 +160,7 @@ class _Case(NamedTuple):
 
     @property
     def of_scuffing(self) -> dict[str, Any]:
-        """The load case as the answer of /v1/rexs contains it.
+        """The load case in the form in which the answer of /v1/rexs states load cases.
 
         The changed fields are named by their paths in a request of /v1/scuffing.
         """

@@ -23,9 +23,9 @@ class CouplingDesign(Section, of=si.Coupling, without=("crowning_ratio",)):
     tooth_stiffness_n_per_um: float | None
 
     def stands_for_null(self, name: str) -> Any:
-        """Return the tooth stiffness that follows from the material, or None if `name` is another field.
+        """Return the tooth stiffness that follows from the material if `name` is the tooth stiffness, otherwise None.
 
-        This value is needed because some answers do not contain the tooth stiffness.
+        The tooth stiffness is needed here because some answers do not contain the tooth stiffness.
         """
         return self.si(si.Coupling).tooth_stiffness * 1e-6 if name == STIFFNESS else None
 
@@ -203,7 +203,7 @@ class CouplingGeometry(Group, of=results.Geometry):
 
 
 class CouplingKinematicCurves(Group, of=results.KinematicCurves):
-    """The motion of a tooth over one revolution; the tilt positions are at 90° and 270°."""
+    """The motion of a tooth over one revolution. The tooth is in a tilt position at the angles 90° and 270°."""
 
 
 class CouplingKinematics(Group, of=results.Kinematics):
@@ -232,8 +232,8 @@ class FrictionRegime(Group, of=results.Regime):
 class CouplingLubrication(Group, of=results.Lubrication):
     """Contact and film of the most heavily loaded tooth.
 
-    If all pitches are equal, the loads of all teeth are compared at one moment: when a tooth is in the tilt position.
-    If there are pitch deviations, the loads of all teeth are compared over a whole revolution.
+    If there are no pitch deviations, the tooth is selected at a rotor angle at which one tooth is in the tilt position.
+    If there are pitch deviations, the tooth is selected among all teeth at all rotor angles of a revolution.
     """
 
     views: ClassVar = {
@@ -279,7 +279,7 @@ class SleeveInertia(Group, of=results.InertiaForce):
 
 
 class RecommendedPoint(Group, of=crowning.RecommendedPoint):
-    """Results with the recommended crowning, at one end of the range of misalignment."""
+    """Results of the coupling with the recommended crowning at one end of the range of misalignment."""
 
     views: ClassVar = {
         "contact_overlap": View(limit=1.0, bound="upper"),

@@ -86,9 +86,9 @@ class TrainModel(MeshModel, PumpingOptions, of=si.DriveTrainInputs, only=("face_
 
 
 def _isotropic(value: Any) -> Any:
-    """Return a stiffness matrix of a bearing if the value is a single number.
+    """Convert the stiffness of a bearing from a single number into a matrix.
 
-    The matrix has this stiffness in every direction. A value that is not a number is returned unchanged.
+    The bearing then has this stiffness in every direction. A value that is not a number is returned unchanged.
     """
     if isinstance(value, int | float) and not isinstance(value, bool):
         return [[value, 0.0], [0.0, value]]
@@ -339,10 +339,10 @@ class DriveTrainRequest(MeshInOil):
 
     @model_validator(mode="after")
     def bodies_hold_the_pumped_heat(self) -> Self:
-        """Set `thermal.bulk_includes_pumping` if the bulk temperature comes from the heat balance.
+        """Set `thermal.bulk_includes_pumping` to true if the bulk temperature comes from the heat balance.
 
-        The heat balance already contains the heat of pumping. If the bulk temperature comes from the heat balance, a
-        request that sets the field to false is refused.
+        The heat balance already contains the heat of pumping. A request that has the heat balance and sets
+        `thermal.bulk_includes_pumping` to false is therefore refused.
         """
         if not self.is_balanced:
             return self
@@ -419,7 +419,7 @@ class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
 
     @model_validator(mode="after")
     def with_a_balance(self) -> Self:
-        """Refuse a bulk temperature that is given or estimated, because a warm-up needs the heat balance."""
+        """Refuse a request with an oil but without a heat balance, because a warm-up needs the heat balance."""
         if self.lubricant.known and not self.is_balanced:
             raise PydanticCustomError(
                 "not_asked",
@@ -429,7 +429,7 @@ class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
         return self
 
     def unused(self) -> dict[str, bool]:
-        """Mark the list of states as unused. Do not mark the mass of the casing, because a warm-up uses this mass."""
+        """Mark the list of states as unused. The mass of the casing is not marked, because a warm-up uses this mass."""
         return super().unused() | {"cooling.casing.mass_kg": False, "states": True}
 
     def inputs(self) -> warm_up.WarmUpInputs:  # type: ignore[override]

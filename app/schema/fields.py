@@ -94,9 +94,9 @@ class Branch:
 def tree(model: type[Documented]) -> Branch:
     """Return the whole request or response as one section without a name.
 
-    If several leaves are declared with the same title, a section title is added to the title of each of these leaves.
-    To choose the section title for a leaf, the sections around this leaf are searched from the innermost to the
-    outermost. The first title that does not occur around the other leaves is added.
+    If several leaves are declared with the same title, the title of a section is added to the title of each leaf. The
+    section is the innermost section around the leaf whose title does not occur around the other leaves. If there is no
+    such section, nothing is added.
     """
     namesakes: dict[str, dict[str, list[str]]] = defaultdict(dict)
     for way in _ways(model):
@@ -152,7 +152,7 @@ def headlines(response: type[Documented]) -> tuple[Leaf, ...]:
 
 
 def _all(member: Leaf | Branch) -> Iterator[Leaf | Branch]:
-    """Yield a member. If the member is a section, also yield all members below the section."""
+    """Yield `member`. If `member` is a section, also yield all fields and sections below this section."""
     yield member
     if isinstance(member, Branch):
         for inner in member.members:
@@ -164,9 +164,10 @@ _Names = tuple[str, ...]
 
 
 def _ways(model: type[Documented], above: _Way = ()) -> Iterator[_Way]:
-    """Yield the way to every field and section of a model. `above` is the way to the model itself.
+    """Yield one way for every field and every section of a model. `above` is the way to the model.
 
-    A way lists the sections around a field, the outermost first. The last item of the way is the field itself.
+    The way to a field lists the sections around the field, the outermost section first. The last item of the way is the
+    field. The way to a section has the same form.
     """
     for member in members(model):
         yield (*above, member)
@@ -285,10 +286,12 @@ def field_path(request: Documented, name: str) -> str | None:
 def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
     """Return the interface names on the way to the field or list item that a solver calls `wanted`.
 
-    If several ways match, return the shortest way. If no way matches, return None. `wanted` may leave out sections, but
-    not lists. The solver's inputs may have outer parts that the request does not have. `wanted` may therefore begin
-    with names that the request does not have. In this case, the first name after these names must be at the root of the
-    request.
+    A way matches if its names in the solver contain the names in `wanted` in the same order, if its last name is the
+    last name in `wanted`, and if it has as many lists as `wanted`. If several ways match, return the shortest way.
+
+    The solver's inputs may have outer parts that the request does not have. If no way matches, the first names in
+    `wanted` are therefore ignored, one after another, until a way matches. The first name that is not ignored must then
+    be at the root of the request. If no way matches in the end, return None.
     """
     request_names: dict[_Names, _Names] = {}
     for way in _ways(model):
@@ -308,10 +311,10 @@ def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
 
 
 def _sent(request: Documented, path: _Names, indices: Iterator[str]) -> str | None:
-    """Return the dotted path of a field in this request, or None if a section or a list item is missing.
+    """Return the dotted path of a field, or None if the request lacks a section or a list item on the path.
 
-    `path` has `*` at each list; `indices` yields the numbers that replace the `*`. If fields exclude each other, the
-    result contains the field that was sent.
+    `path` has `*` for the index of each list item; `indices` yields the numbers that replace the `*`. If a field on the
+    path excludes other fields, the result names the field that was sent.
     """
     here: Any = request
     taken: list[str] = []

@@ -140,4 +140,4 @@ class ContactField(Group, of=results.ContactField):
 
 
 class LineContactResponse(Response, of=results.LineContactResult):
-    """Results of a lubricated line contact; a value is null if there is no solution for it."""
+    """Results of a lubricated line contact. If there is no solution, the values that need the solution are null."""

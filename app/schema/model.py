@@ -94,8 +94,8 @@ class Documented(BaseModel):
         If `stands` is set and neither `only` nor `without` is given, the model represents its first dataclass. If a
         field of another model then has this dataclass as its type, this model takes the place of the dataclass.
 
-        Raises TypeError if two models represent the same dataclass, or if `only` or `views` names a field that is not
-        declared.
+        Raises TypeError if two models represent the same dataclass, or if `only` or the class attribute `views` names a
+        field that the dataclasses do not declare.
         """
         super().__init_subclass__(**config)
         records: tuple[Any, ...] = of if isinstance(of, tuple) else (of,)
@@ -140,7 +140,7 @@ class Documented(BaseModel):
 
 
 _MODELS: dict[tuple[type, type], type[Documented]] = {}
-"""The model that represents a dataclass in other models. The keys are pairs of `Input` or `Output` and a dataclass."""
+"""The model that represents a dataclass in other models. A key is a pair: `Input` or `Output`, and the dataclass."""
 
 
 def _published(hint: Any, declared: Quantity, declares: type) -> Any:
@@ -276,9 +276,9 @@ def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, A
 def _sources(group: type[Documented], record: Any, detail: Detail) -> tuple[tuple[Member, str | None], ...]:
     """Return the fields of a response group that are read from a solver's result of the type `record`.
 
-    Fields above the level of detail are left out. Some fields are not read from the result itself, but from a dataclass
-    that is a member of the result. Each field therefore comes with the name of this member. If the field is read from
-    the result itself, the name is None.
+    Fields above the level of detail are left out. Each item is a pair, which begins with the field. If the field is
+    read from a dataclass that is a member of the result, the second part is the name of this member. If the field is
+    read from the result itself, the second part is None.
     """
     held = {name: inner for name, hint in get_type_hints(record).items() if (inner := _record_in(hint))}
     sources = []
@@ -375,7 +375,8 @@ class Section(Documented):
     def stands_for_null(self, _name: str) -> Any:
         """Return the value that the calculation uses if the field `_name` is null.
 
-        Return None if the section does not know this value.
+        This method returns None, which means that the value is not known. Sections that can determine the value
+        override this method.
         """
         return None
 
@@ -461,7 +462,7 @@ class Derived(Group):
 
 
 GROUNDS = frozenset({"assumptions", "model_version", "sources", "model", "derived", "inputs", "case"})
-"""The last fields of every answer: the basis of the results."""
+"""The names of the fields that stand last in every answer. These fields state the basis of the results."""
 
 
 class Response(Group):

@@ -123,9 +123,10 @@ class SheetOil(Section):
         return self.si(OilSheet)
 
     def stands_for_null(self, name: str) -> Any:
-        """Return the viscosity at 100 °C or the density at 15 °C that follows from the grade or data sheet.
+        """Return the value that the calculation uses if the field `name` is null.
 
-        Return None for any other field. Also return None if neither a grade nor a data sheet is given.
+        The grade or data sheet determines two such values: the viscosity at 100 °C and the density at 15 °C. Return
+        None if `name` is another field, or if neither a grade nor a data sheet is given.
         """
         sheet = self.sheet()
         if sheet and name == "kinematic_viscosity_100_mm2_per_s":
@@ -288,8 +289,8 @@ class CouplingLubricant(SheetOil):
     def unused(self) -> dict[str, bool]:
         """Mark the viscosity as unused if a grade or data sheet is given.
 
-        If neither is given, mark two things as unused: the fields that describe the oil by grade or data sheet, and the
-        temperature.
+        If neither a grade nor a data sheet is given, mark all fields of `SheetOil` and the temperature of the oil as
+        unused.
         """
         of_a_sheet = () if self.by_sheet else (*SheetOil.model_fields, "temperature_c")
         return super().unused() | dict.fromkeys(of_a_sheet, True) | {"viscosity_pa_s": self.by_sheet}

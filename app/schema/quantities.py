@@ -40,7 +40,7 @@ class _Declaration(Quantity):
 
     @property
     def description(self) -> str:
-        """The text, or the title if there is no text. The meaning of null (`default_text`) is added if it is given."""
+        """The text, or the title if there is no text, followed by the meaning of null if `default_text` states one."""
         text = self.text or self.title
         return f"{text}; null: {self.default_text}" if self.default_text else text
 

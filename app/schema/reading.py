@@ -28,7 +28,7 @@ _SECTION_TYPES = {"model_type", "model_attributes_type", "dict_type", "dataclass
 
 
 def validated(model: type[M], content: Any) -> M:
-    """Return the request with this content; raise InvalidBody if the content is not a valid request."""
+    """Return `content` as a request of type `model`; raise InvalidBody if `content` is not a valid request."""
     try:
         return model.model_validate(content)
     except ValidationError as error:

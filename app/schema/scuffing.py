@@ -305,7 +305,7 @@ class ContactTemperatures(Section, of=si.Temperatures):
 
     @model_validator(mode="after")
     def one_bulk(self) -> Self:
-        """Refuse a bulk temperature if the method is not `given`. Refuse a heat balance without oil jets."""
+        """Refuse `bulk_c` unless `bulk_method` is "given". Refuse a heat balance unless oil jets supply the gears."""
         if self.bulk_method != "given" and self.bulk_c is not None:
             method = (
                 "an estimated bulk temperature"
@@ -326,7 +326,7 @@ class ContactTemperatures(Section, of=si.Temperatures):
         return self
 
     def unused(self) -> dict[str, bool]:
-        """Mark the bulk temperature as unused if the method is not `given`."""
+        """Mark `bulk_c` as unused unless `bulk_method` is "given"."""
         return {"bulk_c": self.bulk_method != "given"}
 
 
@@ -335,7 +335,7 @@ class ScuffingTemperatures(ContactTemperatures):
 
     @model_validator(mode="after")
     def known_bulk(self) -> Self:
-        """Refuse the method `given` if the request gives no bulk temperature."""
+        """Refuse the value "given" of `bulk_method` if the request has no `bulk_c`."""
         if self.bulk_method == "given" and self.bulk_c is None:
             raise PydanticCustomError("missing_bulk", "give bulk_c, or set bulk_method to estimated or heat_balance")
         return self
@@ -355,10 +355,10 @@ class Micropitting(Section, of=si.MicropittingCheck):
     exclusive: ClassVar = (("failure_load_stage", "permissible_ratio"),)
 
     def unused(self) -> dict[str, bool]:
-        """Mark the test of the oil and the material factor as unused if the permissible ratio is given.
+        """Mark `failure_load_stage` and `material_factor` as unused if `permissible_ratio` is given.
 
-        Mark the surfaces as unused in three cases: the permissible ratio is given, the material factor is given, or the
-        test is not given.
+        Mark `surface` as unused in three cases: `permissible_ratio` is given, `material_factor` is given, or
+        `failure_load_stage` is not given.
         """
         given = self.permissible_ratio is not None
         return dict.fromkeys(("failure_load_stage", "material_factor"), given) | {

@@ -1,4 +1,4 @@
-"""Studies on a Dask cluster. The workers of the cluster solve the points instead of the service's own processes.
+"""Studies on a Dask cluster: the workers of the cluster solve the points, and the service's own workers do not.
 
 Only this module imports Dask. Dask is an optional dependency: `pip install 'tribodrive[dask]'`.
 """
@@ -96,7 +96,10 @@ class DaskCluster:
         return {name: call.result(timeout=WARM_S) for name, call in calls.items()}
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
-        """Send a call to the cluster. Cancelling the future also cancels the call if the call has not begun."""
+        """Send a call to the cluster and return a future of the call's result.
+
+        If the future is cancelled before the call has begun, the call is also cancelled.
+        """
         return asyncio.ensure_future(self._result(function, *arguments))
 
     async def _result(self, function: Callable[..., Any], *arguments: Any) -> Any:

@@ -136,7 +136,7 @@ def set_value(model: type[Documented], body: dict[str, Any], path: str, value: S
 
 
 def clear_excluded(model: type[Documented], body: dict[str, Any], path: str) -> None:
-    """Remove from a request the fields that must not be given together with the field at this path."""
+    """Remove from the request `body` the fields that must not be given together with the field at `path`."""
     leaf, own = leaf_at(model, path), path.split(".")
     for excluded in leaf.exclusive if leaf else ():
         *section, name = [own[place] if part == ITEM else part for place, part in enumerate(excluded.split("."))]

@@ -283,8 +283,9 @@ def drawn(scatters: Sequence[Range | Scatter], leaves: Sequence[Leaf], cube: Flo
 def unit_cube(method: Method, count: int, dimensions: int, seed: Any, place: str) -> FloatArray:
     """Draw random points in the unit cube, one row per point.
 
-    `seed` is a number or a random generator of NumPy. `place` is the path of the count in the body of the study. Raises
-    Unprocessable at `place` if the method is Sobol and the count is not a power of two.
+    `seed` is a number or a random generator of NumPy. Raises Unprocessable if the method is Sobol and `count`, the
+    number of points, is not a power of two. The error is located at `place`, the path of the number of points in the
+    body of the study.
     """
     from scipy.stats import qmc  # noqa: PLC0415  half a second that only random samples need
 
@@ -312,7 +313,7 @@ def usual_corners(request: Request) -> dict[str, Axis]:
 
 
 def _in_own_unit(path: str, value: float) -> Scalar:
-    """Convert a value from SI units to the unit of the field at this path, and round the result to 12 digits."""
+    """Convert a value from SI units to the unit of the field at `path`, and round the result to 12 digits."""
     field = next(part for part in reversed(path.split(".")) if not part.isdecimal())
     unit = split_unit(field)[1]
     return float(f"{value if unit is None else unit.from_si(value):.12g}") + 0.0

@@ -28,7 +28,10 @@ BY_FILM = {
     DRIVE_TRAIN: {"safety.minimum"},
     "/v1/scuffing": {"film.min_at_psi", "film.thickness_ratio", "unsolved_points"},
 }
-"""For each endpoint, outputs that need the thermal film. Outputs with `thermal_ehl` in the path also need the film."""
+"""The outputs of each endpoint that need the thermal film.
+
+Outputs with `thermal_ehl` in the path also need the thermal film. These outputs are not listed here.
+"""
 
 logger = logging.getLogger("tribodrive")
 
@@ -63,10 +66,10 @@ class Question(NamedTuple):
 
 
 class BaseRequest(NamedTuple):
-    """An endpoint, and a request to this endpoint. The study varies the request.
+    """An endpoint, and the request to this endpoint that a study varies.
 
-    The methods that take a path raise Unprocessable if the path cannot be used. Their argument `place` is the location
-    of the path in the body of the study; the error is shown there.
+    A method that takes a path raises Unprocessable if the path cannot be used. The argument `place` of the method
+    states where the path is in the body of the study. The error names this location.
     """
 
     calculation: Calculation
@@ -158,7 +161,7 @@ def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[st
 def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Overrides) -> dict[str, Any]:
     """Return a copy of the base request with the values of a point.
 
-    If a point sets a field, the fields that must not be given together with this field are removed.
+    If a point gives a field a value other than None, the fields that exclude this field are removed from the copy.
     """
     body = copy.deepcopy(base)
     for path, value in overrides.items():
@@ -192,7 +195,11 @@ def solve_chunk(question: Question, overrides: Sequence[Overrides]) -> Chunk:
 
 
 def solve_point(question: Question, overrides: Overrides) -> Point:
-    """Solve one point. If the request of the point is refused, return a point with status `refused`."""
+    """Solve the request of one point, and return the answer as a `Point`.
+
+    If the request is refused, the `Point` has the status `refused`. If another error occurs, such as a fault in the
+    service, the `Point` has the status `failed`.
+    """
     calculation = BY_PATH[question.endpoint]
     try:
         request = validated(calculation.request, with_overrides(calculation, question.base, overrides))

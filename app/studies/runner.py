@@ -109,9 +109,9 @@ async def in_order(
     """Solve the points with the given indices. Yield pairs: a range of indices, and the solved points of this range.
 
     The pairs are yielded in the order of the indices. `overrides` maps the index of a point to the values that the
-    point changes in the request `question.base`. If the process of a chunk is lost, the points of the chunk are solved
-    again one by one. If the caller leaves the iteration, chunks that have not begun are cancelled. Chunks that have
-    begun run to their end, but nobody waits for their results.
+    point changes in the request `question.base`. If a chunk loses its process or exceeds the deadline, the points of
+    the chunk are solved again one by one. If the caller leaves the iteration, chunks that have not begun are
+    cancelled. Chunks that have begun run to their end, but nobody waits for their results.
     """
 
     def submit(some: range) -> tuple[range, asyncio.Future[Chunk]]:
@@ -312,7 +312,7 @@ async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float 
 
 
 async def encoded(lines: Lines, encode: Callable[[Line], bytes]) -> AsyncGenerator[bytes, None]:
-    """Convert groups of lines into bytes. Yield one piece of bytes per group."""
+    """Convert lines into bytes. Yield one bytes object per group of lines, and nothing for an empty group."""
     async with aclosing(lines):
         async for group in lines:
             if piece := b"".join(map(encode, group)):

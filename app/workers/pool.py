@@ -1,9 +1,11 @@
 """A fixed number of worker processes, and the queue of their calls.
 
 The owner of a call is a client or a study. A free worker gets a call of the owner with the fewest running calls; of
-several such owners, the owner whose last call began longest ago is next. If the queue is full, a call of a client is
-rejected, unless another client has at least two waiting and running calls more. If nobody waits for the result of a
-running call any more, the call may run for another `GRACE_S` seconds. Then its worker is killed and replaced.
+several such owners, the owner whose last call began longest ago is next. If the queue is full, a new call of a client
+is rejected, unless another client has at least two calls more than this client. Waiting and running calls count.
+
+If nobody waits for the result of a running call any more, the call may run for another `GRACE_S` seconds. Then the
+worker of this call is killed and replaced.
 """
 
 import asyncio
@@ -67,7 +69,7 @@ class Pool:
         return await unless_gone(http, self.submit(owner, function, *arguments), self._settings.deadline_s)
 
     def submit(self, owner: Hashable, function: Callable[..., Any], *arguments: Any, is_single: bool = True) -> Outcome:
-        """Queue a call for a worker and return the future of its result. To give up the call, cancel the future."""
+        """Add a call to the queue and return a future of the call's result. To give up the call, cancel the future."""
         job = Job(owner, pickle.dumps((function, arguments)), is_single, asyncio.get_running_loop().create_future())
         job.outcome.add_done_callback(lambda _: self._let_go(job))
         self._waiting.append(job)
@@ -75,7 +77,10 @@ class Pool:
         return job.outcome
 
     def _admit(self, owner: Hashable) -> None:
-        """Raise QueueFull if the queue is full, unless another client has at least two more calls than this owner."""
+        """Raise QueueFull if the queue is full, unless another client has at least two calls more than `owner`.
+
+        Waiting and running calls count.
+        """
         places = Counter(job.owner for job in (*self._running, *self._waiting) if job.is_single)
         if places.total() >= self.size + self._settings.queue and max(places.values()) <= places[owner] + 1:
             REFUSED.inc()

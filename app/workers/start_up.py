@@ -38,7 +38,11 @@ class StartUp:
             raise WarmingUp(f"Kernels are being compiled, once after installation: {report}")
 
     async def run(self) -> None:
-        """Compile all stages, then open all endpoints. If a process dies, compile once more in an empty folder."""
+        """Compile all stages, then open all endpoints. If a process fails, compile once more in an empty folder.
+
+        The endpoints also open if the second attempt fails. If there is no folder for compiled kernels, the endpoints
+        open without compilation. In both cases kernels are compiled when they are needed.
+        """
         began = time.monotonic()
         if FOLDER is not None and not await self._compile(STAGES):
             logger.warning("a process that compiled kernels died: all are compiled anew")
@@ -50,9 +54,10 @@ class StartUp:
         logger.info("tribodrive: everything is warm after %.1f s", time.monotonic() - began)
 
     async def _compile(self, stages: Sequence[Stage]) -> bool:
-        """Run `tribodrive compile` and read the lines that it prints. Return False if the process died.
+        """Run `tribodrive compile` and read the printed progress. Return False if the process failed.
 
-        As soon as a kernel has to be compiled, a second process compiles the stage `BESIDE` at the same time.
+        If a kernel of one of the stages has to be compiled, a second process starts. The second process compiles the
+        stage that the constant `BESIDE` contains. A computer with only one processor starts no second process.
         """
         other: asyncio.Task[bool] | None = None
         process = await asyncio.create_subprocess_exec(

@@ -43,7 +43,7 @@ def prepare(memory_bytes: int, modules: Sequence[str]) -> int:
 
 
 def _end_with_the_service(service: int) -> None:
-    """End this process, whatever it does, as soon as the service is no longer the parent process."""
+    """End this process, even during a call, as soon as the service is no longer the parent process."""
     while os.getppid() == service:
         time.sleep(0.5)
     os._exit(1)

@@ -70,8 +70,8 @@ def thickness_ratio(film: Real, roughness_1: float, roughness_2: float) -> Real:
 def thickness_regime(ratio: float, boundary_below: float = 1.0, full_film_above: float = 4.0) -> Regime:
     """Return the regime of lubrication for a given ratio of film thickness to roughness.
 
-    The default limits are those of the paper. In many texts, mixed lubrication ends at a ratio of 3 instead of 4.
-    Scuffing is probable under boundary lubrication.
+    The default limits are those of Xue, Zhang and Wang 2020, where full-film lubrication begins above a ratio of 4. In
+    many other texts, full-film lubrication begins above a ratio of 3. Scuffing is probable under boundary lubrication.
     """
     if ratio < boundary_below:
         return "boundary"

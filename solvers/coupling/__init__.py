@@ -2,9 +2,9 @@
 
 The data flow through the modules in this order: inputs -> kinematics -> tooth_loads -> lubrication -> sleeve (only with
 two meshes) -> friction (thrust, losses) -> notices. `model.solve` calls all these modules. The orbit of the sleeve
-(`orbit`) needs only kinematics and tooth_loads. `crowning` recommends a crowning ratio; it calls the model for this
-purpose. All inputs are in SI units. If an input lies outside its declared range, the functions exported here raise
-InvalidInput with the name of the input.
+(`orbit`) needs only kinematics and tooth_loads. `crowning` calls the model to recommend a crowning ratio.
+All inputs are in SI units. If an input lies outside its declared range, the functions exported here raise InvalidInput
+with the name of the input.
 """
 
 from solvers.coupling import crowning, model, orbit

@@ -112,7 +112,7 @@ class CrowningState:
 
     `overlap` must be below 1. `edge`, `pressure` and `width` must not exceed 1. `edge` is the largest distance of the
     contact from the middle of the face, divided by half the face width. `pressure` and `width` are divided by their
-    limits. `load_capacity_coefficient` is the smaller of the values at both ends.
+    limits. `load_capacity_coefficient` is the smaller of the two values at the ends of the misalignment range.
     """
 
     overlap: float
@@ -305,7 +305,7 @@ def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float
 def _merged(notices: tuple[Notice, ...]) -> tuple[Notice, ...]:
     """Return the first notice of each code.
 
-    The field name `misalignment` becomes `misalignment_range`.
+    If a notice names the field `misalignment`, the returned notice names the field `misalignment_range` instead.
     """
     first: dict[str, Notice] = {}
     for notice in notices:

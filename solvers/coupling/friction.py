@@ -45,10 +45,11 @@ class ToothSums(NamedTuple):
 def tooth_sums(
     force: FloatArray, sine: FloatArray, cosine: FloatArray, weight: FloatArray, sliding: float, axial_velocity: float
 ) -> ToothSums:
-    """Compute the sums from the tooth forces `force` and the tooth positions `sine` and `cosine` (rows, teeth).
+    """Compute the sums over the teeth from the tooth forces, averaged over the rotor angles.
 
-    `weight` (rows) holds the weights of the rotor angles. The relative velocity is v_r = v_ax + v_G sin(phi), where
-    v_ax is `axial_velocity` and v_G is `sliding` [m/s].
+    Each row of `force`, `sine` and `cosine` (rows, teeth) belongs to one rotor angle. `weight` (rows,) holds the
+    weights of the rotor angles. `sine` and `cosine` are sin(phi) and cos(phi) of the tooth angle phi. The relative
+    velocity is v_r = v_ax + v_G sin(phi), where v_ax is `axial_velocity` and v_G is `sliding` [m/s].
     """
     load = axial = still = tilting = pivoting = power = tilted = mixed = pivoted = 0.0
     for row in range(force.shape[0]):

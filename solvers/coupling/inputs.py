@@ -491,7 +491,7 @@ def _check_mixed_curve(law: MixedFrictionCurve) -> None:
 
 
 def _check_mixed_table(law: MixedFrictionTable) -> None:
-    """Check that the velocities rise from zero or more, and that there is one positive coefficient per velocity."""
+    """Check that the velocities are not negative and rise, and that there is one positive coefficient per velocity."""
     velocities, coefficients = law.sliding_velocity, law.coefficient
     rising = all(a < b for a, b in pairwise(velocities))
     if len(velocities) != len(coefficients) or not velocities or not rising or not velocities[0] >= 0.0:

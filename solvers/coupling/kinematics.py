@@ -311,7 +311,7 @@ def displacement_peak(mesh: MeshMotion) -> float:
 
 
 def kinematics(mesh: MeshMotion) -> Kinematics:
-    """Compute the largest values and the curves over one revolution (Fig. 6)."""
+    """Compute the motion of a tooth over one revolution: largest values, and curves over the tooth angle (Fig. 6)."""
     teeth = ToothPositions(sine=np.sin(_CURVE_ANGLE), cosine=np.cos(_CURVE_ANGLE))
     return Kinematics(
         max_sliding_velocity=abs(mesh.sliding),

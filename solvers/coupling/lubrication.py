@@ -142,8 +142,8 @@ def inlet_length(model: ModelOptions, face_width: float, max_travel: float) -> f
     """Return the length b_I [m] of the converging gap ahead of the contact.
 
     The paper does not define b_I. With the inlet model `face`, b_I is the part of the face that is ahead of the contact
-    when the contact reverses; according to the paper, the film is thickest at this reversal. If the contact has left
-    the tooth, b_I is zero with every inlet model.
+    when the contact reverses its direction. According to the paper, the film is thickest at this reversal. If the
+    contact has left the tooth, b_I is zero with every inlet model.
     """
     if max_travel >= face_width / 2.0:
         return 0.0
@@ -338,9 +338,9 @@ def friction_regime(overlap: float, load_capacity_coefficient: float) -> Regime:
 
 
 def _distance_to_boundary(overlap: float, load_capacity_coefficient: float) -> float | None:
-    """Return the smallest |ln(coordinate/boundary)| over all boundaries on both axes.
+    """Return the smallest |ln(coordinate/boundary)| over all boundaries on both axes of the friction map.
 
-    Return None if all these values are inf.
+    Return None if each coordinate is zero or inf.
     """
     ratios = [overlap / boundary for boundary in OVERLAP_BOUNDARIES]
     ratios += [load_capacity_coefficient / boundary for boundary in CAPACITY_BOUNDARIES]
@@ -446,10 +446,9 @@ def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: flo
 def friction_coefficient(
     friction: Friction, overlap: float, load_capacity_coefficient: float, sliding_velocity: float
 ) -> float:
-    """Return the user's coefficient of friction if there is one.
+    """Return the user's coefficient of friction, or else the coefficient of the friction map.
 
-    If the user gives no coefficient, return the coefficient of the friction map. `sliding_velocity` [m/s] is the
-    largest sliding velocity.
+    `sliding_velocity` [m/s] is the largest sliding velocity.
     """
     if friction.coefficient is not None:
         return friction.coefficient

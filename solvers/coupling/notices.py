@@ -15,7 +15,10 @@ ORBIT_RESOLUTION = 0.01
 """Relative uncertainty of an orbit above which a notice is given."""
 TALLEST_TOOTH = 4.0  # in modules, chosen
 LEAST_ORBIT = 1e-10
-"""An orbit with a smaller largest displacement [m] counts as zero. With perfect teeth only rounding errors remain."""
+"""If the largest displacement of an orbit is below this value [m], the orbit counts as zero.
+
+With perfect teeth, the displacement consists of rounding errors only.
+"""
 
 
 def motion_notices(

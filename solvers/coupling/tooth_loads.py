@@ -42,17 +42,20 @@ MAX_ITERATIONS = 10_000  # limit; no balance should reach this limit, because ea
 BALANCE_TOLERANCE = 1e-13  # in units of T/r_o; a few hundred rounding errors
 LONGEST_STEP = 1e100  # stands for infinity; the square of this number does not overflow
 STIFF = 1e-12
-"""Largest ratio of the sleeve's lateral stiffness to the loaded teeth's stiffness that counts as zero stiffness.
+"""Up to this ratio to the stiffness of the loaded teeth, a lateral stiffness of the sleeve counts as zero.
 
 Rounding errors of this ratio are about 1e-16.
 """
 FLAT = 1e-12
-"""Largest ratio of the energy's slope along a step to the slope at the start that counts as zero slope."""
+"""Up to this ratio to the slope of the energy at the start of a step, a slope along the step counts as zero."""
 
 LOADED = 1e-6
 """Smallest ratio of a tooth's force to the mean tooth force at which the tooth counts as loaded."""
 SLIDING_VELOCITY_LIMIT = 0.12
-"""Limit of steady sliding in gear couplings [m/s] (Tribology Handbook B4.6); 1.6 times as large for short tilts."""
+"""Limit of the sliding velocity in gear couplings [m/s] (Tribology Handbook B4.6).
+
+For a short time, a misalignment may be 1.6 times the misalignment at which the sliding velocity reaches this limit.
+"""
 GRAVITY = 9.80665  # m/s^2, standard gravity (CGPM 1901)
 _SEARCHES = 2  # chosen: number of searches around the samples near which the highest value may lie
 _FINER = 8  # chosen: ratio of the steps of successive searches; two searches locate a peak to 1/128 of the first step
@@ -175,7 +178,7 @@ def centred_rows(ahead: FloatArray, unit: float, unit_force: float, rotation: Fl
 
 @kernel
 def add_up(ahead: FloatArray, normal: FloatArray) -> tuple[Motion, Hessian]:
-    """Compute the torque and the lateral force that the loaded teeth hold, and the second derivatives of the energy."""
+    """Compute the torque and the lateral force of the loaded teeth, and the second derivatives of the energy."""
     normal_x, normal_y = normal
     torque, force_x, force_y = 0.0, 0.0, 0.0
     loaded, x, y, xx, xy, yy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
@@ -303,7 +306,8 @@ def float_sleeve(
     force : FloatArray
         External force on the sleeve, shape (2,) [T/r_o].
     places : Places
-        Rotations and displacements; entry `k` holds the start values, which the solution replaces [T/(r_o c_t)].
+        Rotations and displacements. The iteration starts from the displacement in entry `k`; the solution replaces the
+        rotation and the displacement in this entry [T/(r_o c_t)].
     k : int
         Index into `places` [-].
     ahead : FloatArray
@@ -354,10 +358,12 @@ def floating_rows(
     places: Places,
     iterations: IntArray,
 ) -> None:
-    """Compute the tooth forces `share` and the `places` of a floating sleeve under `force` (rows, 2).
+    """Balance a floating sleeve in each row, and write the results to `share`, `places` and `iterations`.
 
-    The balance of each row starts from the solution of the previous row. In the first row without balance the number of
-    iterations is negative; later rows are not computed.
+    `force` (rows, 2) is the external force on the sleeve. `share` receives the tooth forces, and `places` receives the
+    rotation and the displacement of the sleeve. The first row starts from the displacement in the first entry of
+    `places`, and each further row starts from the displacement in the previous row. In the first row
+    without balance the number of iterations is negative; later rows are not computed.
     """
     for row in range(interference.shape[0]):
         before = max(row - 1, 0)
@@ -372,12 +378,12 @@ def floating_rows(
 def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArray]) -> float:
     """Find the largest value at evenly spaced rotor angles [rad] and between these angles.
 
-    `values_at` takes rotor angles (rows) and returns one value per angle. Two searches follow the evaluation at the
-    given angles. The steps of the first search are eight times finer than the given steps, and the steps of the second
-    search are eight times finer again. Each search looks for larger values near the local maxima. To estimate
-    these values, the rise from the lower neighbour to the local maximum is extrapolated by half a step. If the estimate
-    is below the largest value so far, this local maximum is left out. The searches are necessary because with few
-    loaded teeth a peak lasts only a fraction of a pitch, and each tooth has its own peak.
+    `values_at` takes rotor angles (rows) and returns one value per angle. After the evaluation at the given angles, two
+    searches look for larger values near the local maxima. The steps of the first search are eight times finer than the
+    given steps, and the steps of the second search are eight times finer again. Near a local maximum, the largest value
+    is expected to be the local maximum plus half of its rise above the lower of its two neighbours. If this expected
+    value is below the largest value so far, the local maximum is left out. The searches are necessary because each
+    tooth has its own peak, and because a peak lasts only a fraction of a pitch if few teeth are loaded.
     """
     coarse, step = values_at(angles), angles[1] - angles[0]
     places = angles[:, None] + step * np.array([-1.0, 0.0, 1.0])

@@ -36,7 +36,7 @@ class DerivedShaft:
 
 @record
 class DerivedCoupling:
-    """The proportions of a coupling, the viscosity of the oil at its teeth, and the axial tooth stiffness, as used."""
+    """The values that the calculation used for a coupling: proportions, oil viscosity and axial tooth stiffness."""
 
     coupling: Coupling = quantity("proportions used")
     viscosity: float = quantity("oil viscosity used", "η", unit="pa_s", text="at the teeth")

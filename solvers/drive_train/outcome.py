@@ -19,10 +19,10 @@ from solvers.scuffing.thermal.temperatures import in_force
 class Outcome:
     """Main results of a unit: pressure [Pa], line load [N/m], slopes of the gap [m] and transmission error [m].
 
-    `safety` is the safety factor at the hottest place of the flank, by Blok's method. The method compares the contact
-    temperature with the scuffing temperature `limit` [K]. `temperature` [profile, face] [K] is the contact temperature
-    over the flank. `shares` is the load along the face divided by the mean load. The calculation of a similar unit can
-    start from `gap` [m].
+    A slope is the rise of the gap over the whole face. `safety` is the safety factor at the hottest place of the flank,
+    by Blok's method. The method compares the contact temperature with the scuffing temperature `limit` [K].
+    `temperature` (profile, face) [K] is the contact temperature over the flank. `shares` is the load along the face
+    divided by the mean load. `gap` [m] can be the start value for the calculation of a similar unit.
     """
 
     face_load_factor: float | None

@@ -196,10 +196,9 @@ def _with_rise(coupling: UnitCoupling, casing: float | None, reference: float) -
 def _balance(
     inputs: DriveTrainInputs, warm: DriveTrainInputs, prepared: Prepared, equilibrium: Equilibrium
 ) -> HeatBalanceInputs:
-    """Return the inputs of the heat balance in one pass.
+    """Return the inputs of the heat balance that follow from the loads in `equilibrium`.
 
-    The inputs of the heat balance follow from the loads in `equilibrium`. `inputs` is the unit as given, and `warm` is
-    the unit at the temperatures with which `equilibrium` was computed.
+    `inputs` is the unit as given, and `warm` is the unit at the temperatures with which `equilibrium` was computed.
     """
     mesh = prepared.mesh.prepared
     spread = distribution(warm.mesh.distribution, mesh, equilibrium.balance)

@@ -167,15 +167,15 @@ def reduced_radius(plane: ContactPlane, x: Real) -> Real:
     Returns
     -------
     Real
-        Reduced radius R_n = s (N - s)/(N cos beta_b), where s is the roll length of the pinion and N is the line of
-        action [m].
+        Reduced radius R_n = s (N - s)/(N cos beta_b), where s is the roll length of the pinion and N is the length of
+        the line of action [m].
 
     Notes
     -----
     The contact line is a straight generator of the involute helicoid. Across the contact line, the radius of curvature
     of the helicoid is r_K/cos beta_b, where r_K is the transverse radius of curvature. Eq. 13 prints
-    r_K cos^3 beta_b/(1 - 2 sin^2 beta_b). This expression agrees with r_K/cos beta_b to second order in beta_b, but it
-    is singular at beta_b = 45 degrees.
+    r_K cos^3 beta_b/(1 - 2 sin^2 beta_b). This expression agrees with r_K/cos beta_b to second order in beta_b, but
+    the printed expression is singular at beta_b = 45 degrees.
     """
     s = plane.start + x
     return s * (plane.line_of_action - s) / (plane.line_of_action * plane.cos_base_helix)

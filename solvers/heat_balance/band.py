@@ -55,9 +55,9 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
 
     Notes
     -----
-    Eq. H21. If the temperature of a gear was measured, the uncertainty is added to the measured temperature or
-    subtracted from it. The wetting share is then fitted to the temperature that results. If no wetting share gives
-    this temperature, the largest or the smallest wetting share is used.
+    Eq. H21. If the temperature of a gear was measured, the wetting share is fitted to this temperature minus the
+    uncertainty of the measurement at the well cooled end, and plus the uncertainty at the poorly cooled end. If no
+    wetting share gives the required temperature, the largest or the smallest wetting share is used.
     """
     spray = network.spray
     if cooling.fling_off_factor is None:
@@ -72,10 +72,10 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
 
 
 def _fitted_again(network: Network, node: str, temperature: float) -> Network:
-    """Return the network with the wetting share at which the node has the given temperature [K].
+    """Return the network with the wetting share at which `node` has the given `temperature` [K].
 
-    If the node stays too warm even with the largest share, the network gets the largest share. If the node stays too
-    cold with every share, the network gets the smallest share.
+    If `node` is not colder than `temperature` at the largest wetting share, the network gets the largest share. If
+    `node` is too cold at every wetting share, the network gets the smallest share.
     """
     place, wanted = network.nodes.index(node), temperature - network.oil.inlet
     all_oil = wetted(network, MOST_WETTING)

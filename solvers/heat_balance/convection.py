@@ -1,6 +1,6 @@
 """Convection between a rotating gear and air, at the rim and at the faces of the gear.
 
-The network multiplies the coefficients for air by a factor, because the gears rotate in oil mist.
+The network of the heat balance multiplies the coefficients for air by a factor, because the gears rotate in oil mist.
 """
 
 RECOVERY = 0.88  # recovery factor of a turbulent boundary layer

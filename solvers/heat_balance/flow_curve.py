@@ -1,4 +1,4 @@
-"""Temperatures of flanks and drain at several oil flows; they show the effect of more oil."""
+"""Temperatures of the flanks and of the drained oil at several oil flows, to show the effect of a higher oil flow."""
 
 from dataclasses import replace
 
@@ -32,7 +32,7 @@ def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
         The pair or unit. If the inputs contain measured temperatures, the model is first calibrated with the measured
         temperatures. The calibration uses the oil flow of the inputs.
     flows : FloatArray
-        Flows to the gears, rising [m^3/s].
+        Oil flows to the gears, in ascending order [m^3/s].
 
     Returns
     -------

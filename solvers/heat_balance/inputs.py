@@ -120,7 +120,7 @@ class Measured:
 
     @property
     def rotors(self) -> dict[str, float]:
-        """Measured temperatures of the gears [K] by the name of the node; the pinion comes first."""
+        """Measured temperatures of the gears [K]. The keys are names of nodes; the pinion comes first."""
         given = {item.name: getattr(self, item.name) for item in fields(self) if item.name != "drain"}
         return {name: value for name, value in given.items() if value is not None}
 

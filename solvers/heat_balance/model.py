@@ -86,7 +86,7 @@ def solve(inputs: HeatBalanceInputs) -> Heat:
     Returns
     -------
     Heat
-        Temperatures of all nodes, heat flows, losses, and the band.
+        Temperatures of all nodes, heat flows, losses, and the uncertainty band of the flank temperatures.
 
     Raises
     ------
@@ -209,9 +209,10 @@ def _cooled(gear: GearGeometry, pumping: float) -> CooledGear:
 def _cases(
     network: Network, cooling: Cooling, state: Equilibrium
 ) -> tuple[tuple[tuple[float, float], ...], tuple[Notice, ...]]:
-    """Return the flank temperatures in all cases of the band, and a notice if the band cannot be computed.
+    """Return the flank temperatures of both gears at both ends of the uncertainty band and in the nominal case.
 
-    Without a band, only the flank temperatures of the nominal case are returned.
+    If no band is requested, or if the band cannot be computed, only the flank temperatures of the nominal case are
+    returned. If the band cannot be computed, a notice is also returned.
     """
     inlet = network.oil.inlet
     nominal = ((inlet + float(state.rises[FLANKS[0]]), inlet + float(state.rises[FLANKS[1]])),)

@@ -49,7 +49,7 @@ class CooledGear:
 
     @cached_property
     def rim(self) -> float:
-        """Conductance from the rim to air [W/K]; the network connects half of it to the flanks and half to the body."""
+        """Conductance from the rim to air [W/K]; half of this conductance leads to the flanks, and half to the body."""
         area = 2 * pi * self.tip_radius * self.face_width
         return area * rim_convection(self.flanks.speed, self.tip_radius)
 
@@ -107,8 +107,8 @@ class Flow(NamedTuple):
 class Network:
     """The network of a gear pair or gear unit, with its losses [W].
 
-    `windage` is the windage loss of both gears together. `other` is the sum of all losses that no other part of the
-    model computes. `windage` and `other` heat the mist.
+    `windage` is the windage loss of both gears together. `other` is the sum of all losses that the model does
+    not compute. `windage` and `other` heat the mist.
     """
 
     oil: CoolingOil
@@ -282,7 +282,10 @@ class Network:
         yield Flow(body, node, journal.shaft_conductance * (float(rises[body]) - outlet), "shaft")
 
     def film_temperature(self, outlet: float) -> float:
-        """Return the film temperature of a bearing [K]; `outlet` [K] is the temperature rise of the leaving oil."""
+        """Return the film temperature of a bearing [K].
+
+        `outlet` [K] is the temperature rise of the oil that leaves the bearing.
+        """
         return self.oil.inlet + self.bearing_film_share * outlet
 
     def _casing(self, walls: CasingWalls, rises: FloatArray) -> Iterator[Flow]:

@@ -69,7 +69,7 @@ def equilibrium(network: Network, start: FloatArray | None = None) -> Equilibriu
 
 
 def jacobian(network: Network, rises: FloatArray, residual: FloatArray) -> FloatArray:
-    """Compute the derivatives of the residual by the temperatures [W/K] with finite differences."""
+    """Compute the derivatives of the residual with respect to the temperatures [W/K], by finite differences."""
     columns = []
     for node in range(network.size):
         moved = rises.copy()

@@ -90,7 +90,8 @@ def _of_case(
 ) -> tuple[Statement, ...]:
     """Return the statements in `REPORT` about the films that `solve` computes.
 
-    `words` names the case in the statements. The report prints the numbers `friction`, `bulk` and `ratios`.
+    `words` is the name of the case in the statements. `friction` [-], `bulk` [°C] and `ratios` [-] are the numbers that
+    the report prints: coefficient of friction, bulk temperature, and film ratios at points of the path.
     """
     return (
         Says(REPORT, f"mean coefficient of friction, {words}").equals(friction, "-", lambda: solve().friction, PRINTED),

@@ -50,9 +50,9 @@ class Statement:
 
 @record
 class Says:
-    """The words of a source, from which the methods make a `Statement`.
+    """The words of a source. Every method makes a `Statement` from these words.
 
-    `compute` is the function that computes the number with the solvers.
+    The argument `compute` of the methods is the function that computes the number with the solvers.
     """
 
     source: str

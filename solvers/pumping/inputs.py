@@ -26,7 +26,7 @@ class Closure(StrEnum):
 
 
 class Gap(StrEnum):
-    """Place of the radial clearances: at the narrowest sections between the flanks, or at the mate's tip corners."""
+    """Place of the radial clearances: the narrowest sections between the flanks, or the mating gear's tip corners."""
 
     CONTACT = "contact"
     TIP = "tip"

@@ -96,7 +96,7 @@ def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: Floa
 
 
 def _elongation(position: FloatArray, strain: FloatArray) -> FloatArray:
-    """Integrate the strain from the end z = 0 of the face to the positions [m].
+    """Return, at each position, the integral [m] of the strain from the end z = 0 of the face to this position.
 
     The strain is linear between two positions, even if a groove lies between these positions. From the end z = 0 to the
     first position, the strain is constant and equal to the strain at the first position.

@@ -121,7 +121,7 @@ def _on_grids(mesh: Mesh, space: Space, speed: float, slices: int) -> Grids:
 
 
 def _lead(mesh: Mesh, space: Space, speed: float) -> float:
-    """Compute how far sound is ahead of or behind the meshing line (`Grids.lead`).
+    """Compute `Grids.lead`: how far sound and the meshing line are apart, relative to the way of the meshing line.
 
     Only gas dynamics has waves. For the other flow models, return infinity.
     """

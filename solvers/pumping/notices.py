@@ -1,4 +1,7 @@
-"""Warnings of a pumping calculation: coarse grids, unresolved flows, inputs outside the range of comparisons."""
+"""Warnings of a pumping calculation: coarse grids, unresolved flows, and unusual or untested inputs.
+
+Untested inputs lie outside the range in which the model has been compared with published results.
+"""
 
 from collections.abc import Iterator, Sequence
 from math import degrees, expm1, inf, pi
@@ -141,7 +144,10 @@ def resolution_notices(flow: Flow, uncertain: Resolution) -> list[Notice]:
 
 
 def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]:
-    """Return a warning if the speed is higher than in any published check."""
+    """Return a warning if the speed is higher than in all published results with which the model has been compared.
+
+    The speed is too high if the tip speed or the pitch-line velocity exceeds its limit.
+    """
     tip = max(pair.pinion.tip_radius, pair.wheel.tip_radius * pair.pinion.teeth / pair.wheel.teeth) * pinion_speed
     pitch_line = pair.pinion_working_radius * pinion_speed
     if tip > TIP_SPEED_SHARE * gas.sound_speed or pitch_line > PITCH_LINE_SPEED:

@@ -11,7 +11,7 @@ HARMONICS = 8  # number of harmonics, chosen
 
 @record
 class Pulsation:
-    """Amplitudes of the mass flow at both ends of the face, at multiples of the meshing frequency, (harmonics,)."""
+    """Amplitudes of the mass flow at both ends of the face: one value per multiple of the meshing frequency."""
 
     frequency: FloatArray = quantity("pulsation frequency", "k f_m", unit="hz")
     front_mass_flow: FloatArray = quantity(

@@ -44,9 +44,8 @@ LOST = 1.0  # if a pressure has this relative uncertainty, a finer grid may give
 class Grids(NamedTuple):
     """One stroke at the full resolution, at half and at a quarter of this resolution.
 
-    `lead` compares sound with the meshing line, which moves along the face. In the same time, sound and meshing line
-    cover different distances. `lead` is the difference between both distances, divided by the distance that the meshing
-    line covers.
+    `lead` is |c - v|/v, where c is the ambient speed of sound, and v is the speed of the meshing line along the face.
+    For flow models without waves, `lead` is infinite.
     """
 
     flow: SpaceFlow
@@ -141,7 +140,10 @@ def net_uncertainty(grids: Grids, jumped: float) -> float:
 
 
 def radial_uncertainty(grids: Grids, jumped: float) -> float:
-    """Estimate the uncertainty of the net radial mass in a stroke [kg]; the estimate is at least `net_uncertainty`."""
+    """Estimate the uncertainty of the net mass [kg] that leaves the space in radial direction in a stroke.
+
+    The estimate is at least the result of `net_uncertainty`.
+    """
     radial = SAFETY * abs(grids.flow.masses.radial - grids.halved.masses.radial)
     return max(radial, net_uncertainty(grids, jumped))
 
@@ -172,7 +174,7 @@ def _side_by_side(gas: Gas, fine: SpaceFlow, coarse: SpaceFlow) -> tuple[FloatAr
 def _difference(here: FloatArray, there: FloatArray) -> float:
     """Compute the root mean square difference of two fields.
 
-    Only those points count at which the value of each field is near the maximum of this field.
+    The result includes only the points at which both fields are near their maxima.
     """
     close = (here >= CLOSE * here.max()) & (there >= CLOSE * there.max())
     return float(np.sqrt(np.mean((here - there)[close] ** 2))) if close.any() else 0.0
@@ -208,8 +210,8 @@ def _mach_reach(fine: SpaceFlow, half: SpaceFlow) -> float:
 
     The estimate is for the largest Mach number in the slices and at the ends of the space. The Mach number of a choked
     end is 1 on every grid. As the slices get shorter, the Mach number in the slices beside an end approaches the Mach
-    number of the end. The Mach number in a slice may also rise above the Mach number of the end. The estimate takes
-    this into account.
+    number of the end. The Mach number in a slice may also rise above the Mach number of the end. The estimate can
+    therefore be higher than the Mach number of the end.
     """
     slices, end = float(fine.peak_mach.max()), fine.largest_mach
     if slices == end:
@@ -236,7 +238,7 @@ def _reach(position: FloatArray, here: FloatArray, coarse: FloatArray, there: Fl
     """Estimate the value that the largest maximum over the face may reach with more slices.
 
     From the coarse to the fine grid, every local maximum has risen by a certain amount. With more slices, every local
-    maximum is assumed to rise further by `times` this amount.
+    maximum is assumed to rise further. The further rise is this amount multiplied by the factor `times`.
     """
     edged = np.pad(here, 1, constant_values=-np.inf)
     tops = (here >= edged[:-2]) & (here >= edged[2:])

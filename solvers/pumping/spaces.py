@@ -31,10 +31,9 @@ _ANGLES = 201  # number of angles at which fields are recorded, enough for figur
 class Space:
     """The tooth spaces of one gear.
 
-    `speed_ratio` is the speed of the gear divided by the speed of the pinion. At the end of the face that meshes first,
-    the stroke begins first. At every other place of the face, the stroke begins after a delay. During this delay, the
-    gear turns by an angle. This angle is `lag` [rad/m] times the distance between the place and the end that meshes
-    first.
+    `speed_ratio` is the speed of the gear divided by the speed of the pinion. The stroke begins first at the end of
+    the face that meshes first. At a distance d from this end, the stroke begins later: after the gear has turned by the
+    angle `lag` times d. The unit of `lag` is [rad/m].
     """
 
     of_pinion: bool
@@ -85,7 +84,7 @@ def derived(mesh: Mesh) -> Derived:
 
 
 def _active_share(space: Space, face_width: float) -> float:
-    """Compute the largest share of the face in which spaces are in their stroke at one time."""
+    """Compute the largest length of a space that is in its stroke at one time, divided by the face width."""
     limits, lag = space.table.limits, space.lag * face_width
     return min((limits.end - limits.start) / lag, 1.0) if lag > 0.0 else 1.0
 

@@ -1,7 +1,7 @@
 """Peak pressure and exit Mach number over the pinion speed.
 
-A scan takes no longer than the longest permitted single solution. Low speeds need more steps and therefore get fewer
-slices.
+All speeds of a scan together may take as many steps as the longest permitted solution at one speed. A low speed needs
+more steps. If the permitted number of steps is too small, gas dynamics uses fewer slices at this speed.
 """
 
 import numpy as np

@@ -143,8 +143,8 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
     phase : float
         The x of the line at y = 0 [m].
     side : float
-        If the line of a spur gear lies at an end of the path, 1 selects the neighbouring line at a slightly larger x,
-        -1 selects the neighbouring line at a slightly smaller x, and 0 selects the line itself.
+        For a spur gear, 0 selects the line itself, 1 selects a line at a slightly larger x, and -1 selects a line at a
+        slightly smaller x. For a helical gear, `side` has no effect.
 
     Returns
     -------
@@ -155,10 +155,10 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
 
     Notes
     -----
-    Eq. L3: the line is x = phase - y tan beta_b. The line of a spur gear may lie at an end of the path. Such a line is
-    in contact if the line that `side` selects lies on the path. The line of a helical gear may meet the rectangle at a
-    corner only. Such a line is not in contact. If such a line were in contact, rounding errors would decide whether the
-    line counts when the least gap of the unloaded teeth is determined.
+    Eq. L3: the line is x = phase - y tan beta_b. The line of a spur gear is in contact if the line that `side` selects
+    lies on the path. `side` therefore matters only if the line lies at an end of the path. The line of a helical gear
+    is not in contact if it touches the rectangle only at a corner. Otherwise rounding errors would decide whether the
+    line affects the least gap of the unloaded teeth.
     """
     if plane.tan_base_helix == 0.0:
         nudged = phase + side * COINCIDENT * plane.base_pitch

@@ -49,8 +49,8 @@ class Slices(NamedTuple):
     `x` and `y` are the coordinates of the middle of a slice [m], `length` is the length of the slice along the line
     [m], and `gap` is the gap at the middle [m]. `constant` and `limit` describe the compliance of the pair of teeth
     (`tooth_stiffness.compliance_at`). `load` is the line load w [N/m]. `log_load` is ln w; the next solution starts
-    from this value. `stiffness` is the derivative of w with respect to the approach [N/m^2]. `line` is the number of
-    the line. The arrays may be longer than the number of slices.
+    from this value. `stiffness` is the derivative of w with respect to the approach [N/m^2]. `line` is the index of the
+    contact line to which the slice belongs. The arrays may be longer than the number of slices.
     """
 
     x: FloatArray
@@ -225,10 +225,10 @@ class Survey(NamedTuple):
 
     `friction_moment` is int w |s - s_C| dl [N m], where s - s_C is the distance from the pitch point along the path.
     `length` [m] is the total length of the contact lines, and `loaded_length` [m] is the part of this length on which
-    the flanks touch. `held` is the number of slices whose approach exceeds `limit`, so that their compliance is held
-    constant. `undefined` is the number of loaded points that are too near a base circle to have a pressure. `peak_load`
-    is the largest w [N/m], and `peak_pressure` is the largest w / R_n [N/m^2]. `line_forces` (positions, lines) are the
-    forces on the lines [N].
+    the flanks touch. `held` is the number of slices at which the approach of the flanks exceeds `Slices.limit`; beyond
+    this limit the compliance is constant. `undefined` is the number of loaded points that are too near a base circle to
+    have a pressure. `peak_load` is the largest w [N/m], and `peak_pressure` is the largest w / R_n [N/m^2].
+    `line_forces` (positions, lines) are the forces on the lines [N].
     """
 
     friction_moment: FloatArray
@@ -284,7 +284,7 @@ def _note_peaks(mesh: Mesh, survey: Survey, i: int, load: float, at: tuple[float
 
 @kernel
 def survey_slices(mesh: Mesh, table: Slices, count: int, error: float, survey: Survey, i: int) -> None:
-    """Add the slices of roll position i to the survey; `error` is the approach TE [m] at this roll position."""
+    """Add the slices of roll position i to the survey; `error` is the transmission error TE [m] at this position."""
     arm = mesh.plane.pitch_point - mesh.plane.start
     for n in range(count):
         load, length = table.load[n], table.length[n]
@@ -299,8 +299,8 @@ def survey_slices(mesh: Mesh, table: Slices, count: int, error: float, survey: S
 def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Survey, i: int) -> None:
     """Update the peaks of roll position i with the loads at the ends of the lines and at the kinks of the gap.
 
-    `error` is the approach TE [m] at this roll position. If a line only meets a corner of the plane, it has no length;
-    the corner then counts as the end of the line.
+    `error` is the transmission error TE [m] at this roll position. A line that meets only a corner of the plane of
+    action has no length; such a corner counts as the end of the line.
     """
     plane, edges, log_load = mesh.plane, np.empty(MOST_EDGES), 0.0
     overlap = plane.face_width * plane.tan_base_helix

@@ -119,8 +119,8 @@ def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int,
     """Integrate the load along the path from A to E by the trapezoidal rule, for every place y of the face.
 
     At every roll position (and substep), a contact line passes the place y at a certain x. The rule uses the loads at
-    these points. If TE jumps at a roll position, the point of this roll position is used twice: with TE before the jump
-    and with TE after the jump.
+    these points. If the transmission error jumps at a roll position, the point of this roll position is used twice:
+    with the transmission error before the jump and with the transmission error after the jump.
     """
     plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
     across = lead_gaps(form, y)

@@ -285,7 +285,7 @@ def _bent_steps(balance: LoadBalance) -> IntArray:
 
     A step lies between two neighbouring roll positions. At every roll position, TE is compared with the straight line
     through TE at both neighbouring positions. If TE is not close to this line, TE is not linear over the steps on both
-    sides of the position. Corners are not tested.
+    sides of the position. The positions marked in `RollPositions.corner` are not tested.
     """
     phase, error = balance.rolls.phase, balance.transmission_error
     spread = np.full(error.size, max(float(np.ptp(error)), LEAST_SPREAD))
@@ -307,7 +307,10 @@ def _merged(balance: LoadBalance, added: LoadBalance, places: IntArray) -> LoadB
     """
 
     def together(old: Any, new: Any) -> Any:
-        """Merge two arrays over the roll positions, or two tuples of such arrays."""
+        """Insert `new` into `old` at the indices `places`.
+
+        `old` and `new` are arrays over roll positions, or tuples of such arrays.
+        """
         if isinstance(old, tuple):
             return type(old)(*map(together, old, new))
         return np.insert(old, places, new, axis=0)

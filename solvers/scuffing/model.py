@@ -167,7 +167,7 @@ def _geometry(path: PathOfContact) -> Geometry:
 
 
 def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
-    """Return the values that follow from the inputs; for an input that is not given, return the value that is used."""
+    """Return values that follow from the inputs, including the values used for inputs that are not given."""
     pair = path.pair.inputs
     return Derived(
         pinion_torque=load.torque,

@@ -210,7 +210,7 @@ def lead_gap(form: Gap, y: float) -> float:
 
 @kernel
 def lead_gaps(form: Gap, y: FloatArray) -> FloatArray:
-    """Return the part of Delta [m] that depends on the place on the face.
+    """Return the part of the gap Delta [m] that depends on the place on the face.
 
     The places y [m] are distances from the end that meshes first.
     """
@@ -222,7 +222,10 @@ def lead_gaps(form: Gap, y: FloatArray) -> FloatArray:
 
 @kernel
 def gap_at(form: Gap, x: float, y: float) -> float:
-    """Return Delta [m] at x [m] from A and y [m] from the end that meshes first; positive where material is missing."""
+    """Return the gap Delta [m] at the distances x [m] from A and y [m] from the end that meshes first.
+
+    The gap is positive where material is missing.
+    """
     return profile_gap(form, x) + lead_gap(form, y)
 
 
@@ -246,9 +249,9 @@ def _insert(edges: FloatArray, count: int, y: float) -> int:
 def smooth_parts(form: Gap, line: float, tan_base_helix: float, ends: tuple[float, float], edges: FloatArray) -> int:
     """Divide a contact line into parts on which the gap is smooth.
 
-    The contact line is x = line - y tan_base_helix. `edges` receives, in ascending order, the y [m] of both ends of the
-    line and of every kink between these ends. A kink is a place at which a relief begins, or at which both end reliefs
-    meet. The kinks at the points of a lead curve are left out. Returns the number of edges, which is at most
+    The contact line is x = `line` - y `tan_base_helix`. `edges` receives, in ascending order, the y [m] of both ends of
+    the contact line and of every kink between these ends. A kink is a place at which a relief begins, or at which both
+    end reliefs meet. The kinks at the points of a lead curve are left out. Return the number of edges, which is at most
     `MOST_EDGES`.
     """
     length = min(form.end_relief_length, 0.5 * form.face_width)
@@ -274,5 +277,5 @@ def _gaps(form: Gap, x: FloatArray, y: FloatArray) -> FloatArray:
 
 
 def gaps_at(form: Gap, x: FloatArray, y: FloatArray) -> FloatArray:
-    """Return Delta [m] at points x, y [m]; x and y are arrays of one shape."""
+    """Return the gap Delta [m] at the points x, y [m]; the arrays x and y have the same shape."""
     return _gaps(form, np.ravel(x), np.ravel(y)).reshape(np.shape(x))

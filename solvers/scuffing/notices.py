@@ -165,7 +165,7 @@ def unusual_load_values(inputs: LoadDistributionInputs, result: LoadDistribution
 
 
 def unusual_modifications(modifications: Modifications) -> Iterator[Notice]:
-    """Warn of modifications that are too small to be ground."""
+    """Warn of modifications that are too small to be made by grinding."""
     depths = {
         name: getattr(modifications, name)
         for name, declared in quantities(Modifications).items()

@@ -165,9 +165,9 @@ class TransmissionError:
 class LoadOnFlank:
     """Forces [N], torque [N m], largest line load [N/m] and its place, and loaded share of the contact length.
 
-    `pinion_torque` is the transmitted torque; the forces follow from this torque times `contact_factor`.
+    `pinion_torque` is the transmitted torque; the forces follow from the torque `pinion_torque` times `contact_factor`.
     `tangential_force` is F_bt. `normal_force` is the force that the load balance distributes over the contact lines.
-    `pair_share` [line, roll position] is the force on a line divided by `normal_force`.
+    `pair_share` [line, roll position] is the force on a contact line, divided by `normal_force`.
     """
 
     pinion_torque: float = quantity("pinion torque", "T_1", unit="n_m", text="the transmitted one")

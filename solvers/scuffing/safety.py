@@ -71,8 +71,9 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     Returns
     -------
     Scuffing
-        Load distribution, flash temperature and path of the check. Film, contact temperature and safety are None if
-        the oil or the bulk temperature is unknown.
+        Load distribution, flash temperature, and curves along the checked lines. Film, contact temperature and safety
+        are None if the oil or the bulk temperature is unknown. Safety is also None if the scuffing temperature is
+        unknown.
 
     Raises
     ------
@@ -299,9 +300,9 @@ def safety_factor(scuffing: float, oil: float, contact: float) -> float | None:
 
 
 def _safety(temperatures: Temperatures, contact: ContactTemperature, flash: Flash) -> Safety | None:
-    """Return the safety factors by Blok and by thermal EHL; None without a scuffing temperature.
+    """Return the safety factors by Blok and by thermal EHL, or None if the scuffing temperature is unknown.
 
-    Blok's factor is computed for the whole flank and for the feature line alone.
+    The factor by Blok is computed twice: for the whole flank, and for the feature line alone.
     """
     if temperatures.scuffing is None:
         return None

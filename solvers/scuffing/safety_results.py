@@ -180,8 +180,8 @@ class Film:
 class Safety:
     """Safety factors against scuffing (Eq. 26); a factor is None if the teeth are not hotter than the oil.
 
-    `scuffing` is the scuffing temperature [K]. `verdict` is the risk class by ISO/TR 13989-1 for Blok's factor, or for
-    the smallest factor in the band if there is a band.
+    `scuffing` is the scuffing temperature [K]. `verdict` is the risk class by ISO/TR 13989-1 for Blok's factor. If the
+    heat balance states a band of this factor, `verdict` is the risk class for the smallest factor in the band.
     """
 
     scuffing: float = quantity("scuffing temperature used", "θ_S", unit="c", text="given or by the scuffing test")
@@ -240,10 +240,12 @@ class ScuffingDerived:
 class ThermalPath:
     """The thermal EHL solution at the points of a line; temperatures [K], films [m], pressure [Pa], friction [-].
 
-    The curves are NaN at points that are not solved under their own load. If the solver refuses a point because the
-    load is too light, the point is solved under the lightest load that the solver accepts. `flash_bound` [K] and
-    `film_bound` [m] are the flash temperature and the film of the point under this lightest load. The real flash
-    temperature of the point is not higher than `flash_bound`, and the real film is not thinner than `film_bound`.
+    All arrays except `flash_bound` and `film_bound` are NaN at points that are not solved under their own load. If the
+    solver refuses a point because the load is too light, the point is solved under the lightest load that the solver
+    accepts.
+    `flash_bound` [K] and `film_bound` [m] are the flash temperature and the film of the point under this lightest load.
+    The real flash temperature of the point is not higher than `flash_bound`, and the real film is not thinner than
+    `film_bound`.
     """
 
     status: tuple[PointStatus, ...]
@@ -276,8 +278,8 @@ class ScuffingPath:
 
     `thermal` is the thermal EHL solution, or None if only the closed-form formulas are evaluated. A point that the
     thermal EHL solver accepts but cannot solve has the status "no_solution". A point that this solver does not accept
-    has the status "refused". The thickness ratio is computed from the film by thermal EHL, or from the film by Dowson
-    and Higginson if `thermal` is None.
+    has the status "refused". The ratio of the film to the roughness is computed from the film by thermal EHL, or from
+    the film by Dowson and Higginson if `thermal` is None.
     """
 
     psi: FloatArray = quantity(

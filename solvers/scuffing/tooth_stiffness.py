@@ -426,6 +426,8 @@ def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tu
 
     Johnson (1985) and Weber state the compliance of the half-spaces:
     delta_H / w = sum_i (1 - nu_i^2)/(pi E_i) [2 ln(2 d_i / b_H) - nu_i/(1 - nu_i)],  b_H^2 = 8 w R_n/(pi E').
+    Here b_H is the half width of the contact, R_n is the reduced radius, E' is the reduced modulus, and d_i is the
+    `depth` of the load point of gear i in the transverse section (see `LoadPoints`).
     As a function of the load w, this compliance is offset - slope ln w. The docstring of this module explains omega.
     The contribution of the contact to omega is the compliance divided by the slope, which is offset / slope - ln w.
     This contribution decreases as the load increases. The least contribution is computed with d_i = `SHALLOWEST` b_H

@@ -48,9 +48,10 @@ def draw(figure: Figure, image_format: str, theme: ThemeName = "light") -> bytes
 
 
 def draw_for_report(figure: Figure) -> tuple[Figure, bytes]:
-    """Draw a figure as svg in the width of a report's column. Return the figure in the width that is drawn.
+    """Draw a figure as svg, if possible in the width of a report's column. Return the figure as drawn, and the svg.
 
-    The figure keeps its usual width if its panels stand side by side, or if its texts would collide in the column.
+    The figure keeps its usual width if its panels stand side by side, or if its texts would be cut off or overlap in
+    the width of the column.
     """
     with themed("light"):
         if not figure.beside:
@@ -62,7 +63,7 @@ def draw_for_report(figure: Figure) -> tuple[Figure, bytes]:
 
 
 def _written(sheet: Sheet, title: str, image_format: str) -> bytes:
-    """Write a sheet that is laid out, as svg, png or pdf."""
+    """Return a sheet as svg, png or pdf. The layout of the sheet must be complete (see `laid_out`)."""
     sheet.set_dpi(DPI[image_format])
     image, metadata = BytesIO(), METADATA[image_format] | {"Title": title}
     canvas: Any = CANVASES[image_format](sheet)
@@ -185,7 +186,10 @@ def laid_out(figure: Figure) -> tuple[Sheet, list[Axes]]:
 
 
 def _collides(sheet: Sheet, axes: list[Axes]) -> bool:
-    """Return True if a text of a sheet that is laid out is cut off or overlaps another text."""
+    """Return True if a text on the sheet is cut off or overlaps another text.
+
+    `sheet` and `axes` are the values that `laid_out` returns.
+    """
     sheet.draw_without_rendering()  # places the names of axes and the legends
     texts = list[Text]()
     for panel_axes in axes:

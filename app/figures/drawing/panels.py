@@ -202,7 +202,10 @@ def _bar_style(role: Role, color: str) -> Style:
 
 
 def _draw_bars(axes: Axes, bars: Line, beside: list[Line]) -> None:
-    """Draw the bars of one series. `beside` holds all series, including this one, that stand beside one another."""
+    """Draw the bars of the series `bars`. `beside` holds all series that share the places on the abscissa.
+
+    The bars of these series stand beside one another. `beside` includes `bars`.
+    """
     pitch = float(np.diff(bars.x).min()) if len(bars.x) > 1 else 1.0
     width = BAR_SHARE * pitch / len(beside)
     left = bars.x - BAR_SHARE * pitch / 2 + beside.index(bars) * width
@@ -262,7 +265,7 @@ def _draw_row(axes: Axes, place: int, row: Row) -> None:
 def _write_value(axes: Axes, place: int, row: Row, panel: Panel) -> None:
     """Write the value of a row to the right of its bar. A rounding error is written as zero.
 
-    The bounds of the value are written too if they are far apart.
+    The bounds of the value are written too if the upper bound is far from the lower bound.
     """
     scale = max((abs(other.value) for other in panel.rows if np.isfinite(other.value)), default=0.0)
     value, unit = without_rounding(row.value, scale), panel.x.unit
@@ -383,8 +386,9 @@ def _name(axes: Axes, text: str, xy: tuple[float, float], xycoords: Any = "data"
 def _keep_clear(axes: Axes, text: Text, room: Bbox, points: list[Bbox], rings: list[Bbox]) -> None:
     """Move the text of an area to a place in the area that is clear of the points and of the texts of the points.
 
-    `points` holds the boxes around the points with their texts. If no place is clear of these boxes, the text is only
-    kept clear of the rings.
+    `points` holds the boxes around the points with their texts, and `rings` holds the boxes around the points alone. If
+    no place is clear of `points`, a place that is clear of `rings` is used. If there is no such place either, the text
+    is not moved.
     """
     box = text.get_window_extent()
     inset = INSET * axes.figure.dpi / 72.0
@@ -481,7 +485,8 @@ def _lead(axes: Axes, text: Annotation, size: BboxBase, place: tuple[float, floa
 def _hidden(curve: Path, box: Bbox, near: Bbox) -> float:
     """Return the cost of a text whose box lies over a curve or close to a curve.
 
-    The longer the part of the curve that lies in the box `near` around the text, the higher the cost.
+    The box `near` is larger than the box of the text. The cost grows with the width of the part of the curve that lies
+    in `near`.
     """
     x, y = np.asarray(curve.vertices).T
     inside = x[(x > near.x0) & (x < near.x1) & (y > near.y0) & (y < near.y1)]

@@ -60,7 +60,7 @@ def _around(which: str, value: float) -> tuple[float, float]:
 
 
 def _ticks(low: float, high: float) -> list[float]:
-    """Return the ticks of an axis: the two boundaries, and the powers of ten that lie well outside the boundaries."""
+    """Return the ticks of an axis: `low`, `high`, and the powers of ten well below `low` or well above `high`."""
     decades = (10.0**exponent for exponent in range(-12, 13))
     return sorted({low, high, *(decade for decade in decades if decade <= low / 1.9 or decade >= high * 1.9)})
 
@@ -88,7 +88,7 @@ def _band(low: float | None, high: float | None) -> str:
 
 
 def _to_boundary(overlap: float, capacity: float, distance: float) -> Line:
-    """Return the line from the point to the nearest boundary. The line is parallel to one of the axes."""
+    """Return the line from the point of the coupling to the nearest boundary of an area, parallel to an axis."""
     ways = [(bound, capacity) for bound in OVERLAP_BOUNDARIES] + [(overlap, bound) for bound in CAPACITY_BOUNDARIES]
     x, y = min(ways, key=lambda way: abs(abs(log(way[0] / overlap)) + abs(log(way[1] / capacity)) - distance))
     return Line(
@@ -151,8 +151,8 @@ def orders(_: CouplingInputs, result: OrbitResult) -> Figure:
 def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figure:
     """Draw the least load capacity and the largest contact overlap over the crowning ratio.
 
-    The least and the largest value are taken over the range of the misalignment. The feasible range of the crowning
-    ratio is shaded, and the recommended ratio is marked.
+    At each crowning ratio, the curves show the least load capacity and the largest contact overlap within the range of
+    misalignment. The feasible range of the crowning ratio is shaded, and the recommended ratio is marked.
     """
     scan, best = result.scan, result.crowning_ratio
     ratio, capacity = scan.crowning_ratio, scan.min_load_capacity_coefficient

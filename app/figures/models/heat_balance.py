@@ -211,7 +211,7 @@ def _factors(scuffing: float, oil: float, contact: Values) -> Values:
 def _verdicts(factors: Values) -> list[Level]:
     """Return two levels of the safety factor: high risk below the first level, low risk above the second level.
 
-    The second level is left out if all safety factors are far below this level.
+    The second level is left out if no safety factor exceeds the mean of the two levels.
     """
     levels = [Level(HIGH_RISK_BELOW, "high risk below 1", limit=True)]
     if float(np.nanmax(factors)) > (HIGH_RISK_BELOW + LOW_RISK_ABOVE) / 2:

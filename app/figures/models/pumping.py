@@ -244,9 +244,9 @@ def mass_flow(_: PumpingInputs, result: PumpingResult) -> Figure:
     """Draw the mass flows of the tooth spaces.
 
     At each end of the face, three flows are drawn: the outflow, the inflow and the net outflow. For the radial
-    clearances and for the grooves, only the net outflow is drawn. The last bar is the sum of two mass flows: the mass
-    flow that slices lose when ambient gas replaces their content between two strokes, and the mass flow to slices
-    outside their stroke.
+    clearances and for the grooves, only the net outflow is drawn. The last bar is the sum of two mass flows. The first
+    is the loss of mass between two strokes, when ambient gas replaces the gas in a slice. The second is the mass flow
+    from slices in their stroke to slices outside their stroke.
     """
     exits = {gear: _exits(space) for gear, space in spaces(result)}
     still = all(abs(row.value) < NO_FLOW for rows in exits.values() for row in rows)

@@ -157,7 +157,11 @@ def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Callab
 
 
 def _common_limits(panels: Sequence[Panel]) -> tuple[float, float]:
-    """Return the ends of an ordinate that shows the lines of all panels and the levels near these lines."""
+    """Return the limits of the ordinate that all panels share.
+
+    If the ordinate of the first panel has fixed limits, return these limits. Otherwise, return limits that
+    enclose the lines of all panels and the levels near these lines.
+    """
     axes = panels[0].y
     if axes.limits is not None:
         return axes.limits
@@ -318,10 +322,9 @@ def _unsolved(result: Scuffing) -> int:
 
 
 def _warned(path: ScuffingPath) -> list[Span]:
-    """Return the ranges of psi in which all points of a path have warnings.
+    """Return the ranges of psi in which the points of a path have warnings.
 
-    A range ends midway between a point with warnings and a point without warnings. The figure shows a name for the
-    first range only.
+    A range ends midway between a point with warnings and a point without warnings. Only the first range has a label.
     """
     psi, spans = path.psi, list[Span]()
     edges = np.concatenate([psi[:1], (psi[:-1] + psi[1:]) / 2.0, psi[-1:]])

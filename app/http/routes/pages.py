@@ -119,7 +119,7 @@ def _add(calculation: Calculation) -> None:
 
     @router.api_route(f"{path}/case.json", methods=METHODS)
     async def saved(http: Request) -> Response:
-        """Send a JSON file with the title, the endpoint and the request as typed. Values may be missing."""
+        """Send a JSON file with the title, the endpoint, and the request as typed, which may be incomplete."""
         asked, _ = await asked_of(http, calculation)
         content = {"title": asked.title, "endpoint": calculation.path, "request": asked.body}
         name = "".join(sign for sign in asked.title if sign.isalnum() or sign in " -").strip() or PurePath(path).name

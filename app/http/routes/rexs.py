@@ -95,7 +95,8 @@ async def ask_for_unit(http: Request) -> Response:
 async def open_unit(http: Request) -> Response:
     """Redirect to the page of the unit. The back button of the browser can then return to the page of the unit.
 
-    A page that is too large to keep is sent at once. If the file cannot be read, the answer states the reason.
+    If the page is too large to keep, the answer is the page itself instead of a redirection. If the file cannot be
+    read, the answer states the reason.
     """
     root = root_of(http)
     try:
@@ -128,7 +129,10 @@ def _key(root: str, name: str) -> str:
 
 
 async def _upload(http: Request) -> Upload:
-    """Return the file. Raises HTTPException if the media type is unknown, and Unprocessable if a form has no file."""
+    """Return the file that the client sent.
+
+    Raises HTTPException if the media type is unknown, and Unprocessable if a form has no file.
+    """
     media_type = http.headers.get("content-type", "").partition(";")[0].strip().lower()
     if media_type in TYPES:
         return Upload(await http.body())

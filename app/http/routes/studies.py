@@ -49,7 +49,10 @@ async def planned(http: Request, planner: Callable[[int, float], Any], most: int
 
 
 async def begun(http: Request, study: Study, progress_s: float = PROGRESS_S) -> tuple[Lines, Clock]:
-    """Begin a study that already has a place among the running studies, and return its lines and its clock."""
+    """Begin a study that is already counted among the running studies. Return its lines and its `Clock`.
+
+    The clock holds the running time of the study and the number of solved points.
+    """
     clock = Clock(study.total)
     lines = study.lines(await http.app.state.studies.pool(), clock)
     return guarded(lines, clock, http.app.state.settings.study_deadline_s, progress_s), clock

@@ -91,7 +91,7 @@ async def _page(http: Request, calculation: Calculation, own: type[StudyPage], p
 
 
 async def _planned(http: Request, own: type[StudyPage], asked: Asked, view: Callable[..., Any]) -> Any:
-    """Have a worker make the study of a case, or the page of this study, and return the result."""
+    """Call `view` in a worker for the case `asked` and the kind of study `own`, and return what `view` returns."""
     if asked.pairs:
         http.app.state.start_up.require(asked.calculation.path)
     return await planned(http, partial(view, own, asked), getattr(http.app.state.settings, own.plan.most))

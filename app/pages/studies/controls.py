@@ -107,7 +107,7 @@ class Menu(NamedTuple):
 
     `chosen` is the path of the chosen entry, or an empty text if nothing is chosen. `empty` is the label of the entry
     that stands for no choice. `shown` is the label of the chosen entry, printed below the menu because a narrow menu
-    cuts it off.
+    cuts the label off.
     """
 
     name: str
@@ -146,7 +146,7 @@ def field_choices(calculation: Calculation, case: dict[str, Any], *, texts: bool
 
 
 def numbered(title: str, path: str) -> str:
-    """Return the title of an input. For each list on the input's path, add the number of the item, counted from 1."""
+    """Return the title of an input, followed by the numbers of the list items on its path, counted from 1."""
     places = [str(int(part) + 1) for part in path.split(".") if part.isdecimal()]
     return f"{title} {'.'.join(places)}" if places else title
 

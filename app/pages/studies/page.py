@@ -163,7 +163,7 @@ class StudyPage(ABC):
         return ()
 
     def shows(self) -> tuple[FieldView, ...]:
-        """Return the form fields beside the menu of outputs."""
+        """Return the form fields that stand next to the menu of outputs. The base class has no such fields."""
         return ()
 
     def declared(self) -> tuple[Control, ...]:
@@ -254,7 +254,7 @@ class StudyPage(ABC):
         return len(self.view("").partition("?")[2]) > LONGEST_QUERY
 
     def image(self, figure: str, image_format: str) -> str:
-        """Return the address of a figure's file."""
+        """Return the address at which a figure of the study can be downloaded as a file."""
         return self.view(f"/figures/{figure}.{image_format}")
 
     def field_at(self, path: str) -> Leaf | None:

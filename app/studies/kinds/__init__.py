@@ -1,4 +1,6 @@
-"""The kinds of study, one per module. A module declares the request, the points, the lines and the page of its study.
+"""The kinds of study, one per module.
+
+A module declares the request of its study, the points, the lines of the answer, and the page.
 
 sweep           the results over a grid of field values, at a list of cases, or at a random sample
 sensitivity     the inputs that change an output most

@@ -48,7 +48,7 @@ USUAL_RANGES = (
 UNCERTAIN = ("wall response", "pinion clearance", "wheel clearance", "friction", "offset", "thrust fraction")
 """The inputs of a gear unit that can be uncertain."""
 DESIGN = "design"
-"""Name of the study page that searches for the flank correction with the best result at the worst corner."""
+"""Name of the study page that searches for the flank correction with the best result at its worst corner."""
 
 
 class CornersRequest(DriveTrainStudy):
@@ -68,9 +68,9 @@ class Corners(Sweep):
     A corner is a combination of the values of the uncertain inputs. There is a line for each corner. The lines
     `extremes` give the least and the largest value of each output.
 
-    If no output needs the thermal film, the film is not calculated. The study is then twenty times as fast and has
-    fewer warnings. If some corners have no solution, the last line has the warning `no_convergence_of_corner`. The
-    lines of these corners state why there is no solution.
+    If no output needs the thermal film, the film is not calculated. The study is then twenty times as fast as with
+    the film, and has fewer warnings. If some corners have no solution, the last line has the warning
+    `no_convergence_of_corner`. The lines of these corners state why there is no solution.
     """
 
     path = "/v1/drive-train/corners"
@@ -175,8 +175,8 @@ class UnitPage(StudyPage):
 def _typed(axis: Axis, text: str) -> dict[str, Any]:
     """Return the axis with the values that the user typed.
 
-    Semicolons separate the values of the axis. If the axis moves several fields together, blanks separate the values of
-    these fields.
+    Semicolons separate the values of the axis. If the axis changes several fields together, blanks separate the values
+    of these fields.
     """
     rows = [[number_of(part) for part in row.split()] for row in text.split(";")]
     return {"path": axis.path, "values": [row[0] if len(row) == 1 else row for row in rows]}
@@ -185,7 +185,7 @@ def _typed(axis: Axis, text: str) -> dict[str, Any]:
 def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[str, Figure]:
     """Return the figure of the load along the face: solid lines for `case`, dashed lines for `reference`.
 
-    `name` is the name of `case` in the legend. The text `finding` becomes the beginning of the figure's own finding.
+    `name` is the name of `case` in the legend. The finding of the figure begins with the text `finding`.
     The result is empty if `case` or `reference` has no data for this figure.
     """
     try:
@@ -220,8 +220,8 @@ class CornersPage(UnitPage):
         """Return the body with the values of the uncertain inputs.
 
         If the user typed no values for an input, the usual values of this input are used. The body requests the output
-        that the page shows. It also requests all headline numbers that need neither the thermal film nor the cold
-        state.
+        that the page shows. The body also requests all headline numbers that need neither the thermal film nor the
+        cold state.
         """
         output, paths = self.output.path, [leaf.path for leaf in headlines(self.calculation.response)]
         deciding = [path for path in paths if not (needs_film(DRIVE_TRAIN, path) or path.startswith(COLD))]
@@ -234,9 +234,10 @@ class CornersPage(UnitPage):
     def result(self, lines: list[Line]) -> Result:
         """Return two figures and two tables.
 
-        One figure shows the effect of each uncertain input. The other compares the load along the face at the worst
-        corner with the load of the case as entered. The tables list the extremes of each output, and the inputs at the
-        worst corner.
+        One figure shows the effect of each uncertain input. The other figure compares the load along the face at the
+        worst corner with the load of the case as entered. One table lists the extremes of each output, and the other
+        table lists the inputs at the worst corner. If the output has no value at any corner, there are no figures and
+        no tables.
         """
         end, output = lines[-1], self.output
         extremes = {line["output"]: line for line in lines if line["type"] == "extremes"}

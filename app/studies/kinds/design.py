@@ -94,15 +94,15 @@ class DesignRequest(DriveTrainStudy):
 
 
 class Design(Study):
-    """A search for the best correction of a gear unit. It starts from the correction in the request.
+    """A search for the best correction of a gear unit. The search starts from the correction in the request.
 
     The method of the search is COBYQA. The objective of a correction is the value of the chosen output at the worst
     combination of operating point and corner. The output `safety.minimum` needs the thermal film, which takes one
     second per corner. If the output is `safety.blok_flank`, or if `model.lubrication` is `closed_form`, the search is
     twenty times as fast.
 
-    If variables have a `step`, the last line has the member `rounded`. It holds the best correction, rounded to whole
-    steps, and the objective of the rounded correction.
+    If a variable has a `step`, the last line has the member `rounded`. This member holds the best correction, rounded
+    to whole steps, and the objective of the rounded correction.
     """
 
     path = "/v1/drive-train/design"
@@ -301,7 +301,7 @@ def next_place(start: Sequence[float], told: Sequence[list[float] | None], most:
     The method is COBYQA, which needs no derivatives. COBYQA minimises an additional variable, the level, under the
     constraint that no objective exceeds the level. In this form, COBYQA has one smooth model per objective, even along
     a ridge on which two objectives are equally large. The method is restarted at the best point as long as a restart
-    improves the result. Raises NoSolution with the code `design` if the start has no solution.
+    improves the result. Raises NoSolution with the code `design` if the starting point has no solution.
     """
     if len(told) == most:
         return None
@@ -313,7 +313,7 @@ def next_place(start: Sequence[float], told: Sequence[list[float] | None], most:
     def scaled(place: FloatArray) -> FloatArray:
         """Return the scaled objectives at a point.
 
-        `place` holds the coordinates of the point, and behind them the level, which has no effect here.
+        `place` holds the coordinates of the point and, as the last item, the level. The level has no effect here.
         """
         name = _name(place[:-1])
         if name not in evaluated:
@@ -394,10 +394,11 @@ class DesignPage(UnitPage):
     plan = Design
 
     def body(self) -> dict[str, Any]:
-        """Return the body with the ranges of the corrections and the values of the uncertain inputs.
+        """Return the body of the study's request.
 
-        The usual ranges and values are used where the user types nothing. An input in `left_alone` is varied only if
-        the user types values for this input.
+        The body contains the ranges of the corrections and the values of the uncertain inputs. If the user types no
+        range or no values, the defaults are used. But an input in `left_alone` is varied only if the user types values
+        for this input.
         """
         output, given = self.output, self.given()
         for (_, paths, *_), variable in zip(GROUND, given["variables"], strict=True):
@@ -557,10 +558,10 @@ def _ends(case: Case) -> tuple[str, str]:
 
 
 def _numbers(case: Case, end: Line, at: Overrides) -> Table:
-    """Return a table of all values of the helix slope and of the crowning that the pages of this unit show.
+    """Return a table of the different values of helix slope and crowning that the pages of this unit show.
 
-    The pages show different values, because each page answers another question. A row of the table says where its
-    values come from.
+    Each page answers a different question, so each page shows a different helix slope and crowning. Every row of the
+    table names the source of the values in this row.
     """
     misalignment, inputs = case.response.misalignment, case.response.inputs
     estimate = "first estimate: inputs as described, load spread evenly over the face"

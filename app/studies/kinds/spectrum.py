@@ -97,7 +97,7 @@ TOLERANCES = tuple(f"t{place}" for place in range(12))  # names of the tolerance
 
 
 class LoadCase(Part):
-    """A part of the operating time, and the values that it changes in the request."""
+    """A part of the operating time, and the values of the request that are different in this part."""
 
     name: Annotated[str | None, Field(max_length=100), Input("name", default_text="its number")] = None
     share: Annotated[
@@ -171,7 +171,10 @@ class SpectrumRequest(StudyRequest):
 
 
 class Scuffing(NamedTuple):
-    """The path of the contact temperature and the path of the scuffing temperature in the answer of an endpoint."""
+    """Names of two results in the answer of an endpoint: the contact temperature and the scuffing temperature.
+
+    Both names are dotted paths in the answer.
+    """
 
     contact: str
     limit: str
@@ -584,9 +587,10 @@ def _case(calculation: Calculation, columns: list[Column], row: list[str], line:
 
 
 def table_of(calculation: Calculation, cases: list[dict[str, Any]]) -> str:
-    """Return the text of a table of these cases. The first line has the labels of the fields in the form.
+    """Return the cases as the text of a table.
 
-    `cases_of` can read this text.
+    The first line names the columns. The name of a field is the label of this field in the form. `cases_of` can read
+    the text.
     """
     paths = list(dict.fromkeys(path for case in cases for path in case.get("set", {})))
     rows = [[NAME, SHARE, *(_heading(calculation, path) for path in paths)]]
@@ -623,12 +627,15 @@ TOLERANCE = (
     Control(".about", "mean"),
     Control(".by", "deviation"),
 )
-"""The controls of a tolerance, with only the last parts of their names.
+"""The controls of a tolerance, with only the last parts of their names; `_tolerance` adds the first parts.
 
-In the form, every distribution is defined by a mean and a width, here called `deviation`.
+In the form, the user enters the mean and the width of every distribution. The path of the width is `deviation`.
 """
 STATED = {"normal": ("mean", "deviation"), "lognormal": ("median", "factor")}
-"""Names of the two parameters that stand for mean and width. Distributions not listed here have `min` and `max`."""
+"""Names of the two parameters of a distribution that receive the mean and the width from the form.
+
+Distributions not listed here have the parameters `min` and `max`. The triangular distribution also has `mode`.
+"""
 
 
 def _tolerance(place: int, name: str, about: Any = None, by: Any = None) -> list[Control]:
@@ -741,7 +748,7 @@ class SpectrumPage(StudyPage):
         }
 
     def _given(self) -> list[str]:
-        """Return the names of the tolerances that the user has filled in, in the order of the form."""
+        """Return the names of the tolerances for which the user has entered values, in the order of the form."""
         return [name for name in TOLERANCES if self.views.get(name)]
 
     def declared(self) -> tuple[Control, ...]:
@@ -917,7 +924,10 @@ class SpectrumPage(StudyPage):
         return Limited(axis_of(self.output), limit, [case for case in cases if case in worst], influences)
 
     def _losses(self, end: Line) -> dict[str, Figure]:
-        """Return the figure of the mean losses in each case [kW]. The result is empty if no loss has a mean."""
+        """Return a dictionary with one figure, which shows the mean losses in each case [kW].
+
+        If no loss has a mean value, the dictionary is empty.
+        """
         wanted, outputs = LOSSES.get(self.calculation.path, ()), end["outputs"]
         titles = {leaf.path: leaf.title for leaf in self.study.outputs}
         drawn_losses = {path: titles[path] for path in wanted if outputs[path]["mean"] is not None}

@@ -129,7 +129,7 @@ class Summary(runner.Tally):
         self._least = inf
 
     def add(self, point: Point) -> None:
-        """Include the next point. Points must be added in order.
+        """Add the next point to the summary. Points must be added in order.
 
         If several points have the same extreme or best value, the first of these points is stored.
         """
@@ -432,9 +432,9 @@ class SweepPage(StudyPage):
         return best == "greatest"
 
     def body(self) -> dict[str, Any]:
-        """Return the body with the axes, the output that the page shows, and the criterion for the best output.
+        """Return the body with the axes, the output that the page shows, and the criterion for the best point.
 
-        The usual ends of an axis are used where the user types nothing.
+        If the user does not type an end of an axis, the usual end is used.
         """
         goal = "maximise" if self.is_greatest_best else "minimise"
         x, y = map(self.views.get, AXES)
@@ -471,7 +471,7 @@ class SweepPage(StudyPage):
         return tuple(groups)
 
     def shows(self) -> tuple[FieldView, ...]:
-        """Return the menu with which the user chooses the best value of the output: the least or the greatest value."""
+        """Return the menu in which the user chooses whether the least or the greatest value of the output is best."""
         ends = (("", "by the output"), ("least", "least"), ("greatest", "greatest"))
         return (self.field("best", "the best is", options=ends),)
 

@@ -1,4 +1,4 @@
-"""Solution of a single contact that starts from the dry contact.
+"""Solution of a single contact by iterations that start from the pressure of the dry contact.
 
 If the cheapest way to the solution fails, the module tries further ways, as long as the budget of Newton steps lasts.
 """

@@ -34,7 +34,7 @@ class Columns(NamedTuple):
 
     Three fields have one value per interval (n, m): `density` [kg/m^3], the shear stress `stress` [Pa] and the shear
     rate `rate` [1/s]. Three fields have one value per column (n,): `mid_stress`, the shear stress half way across the
-    film [Pa], and the flow coefficients `a` [s] and `b` [kg/(m^2 s)]. Two fields have one value per node across the
+    film [Pa], and the flow coefficients `a` [s/m^2] and `b` [kg/(m^2 s)]. Two fields have one value per node across the
     film (n, k): `couette`, the stream function of the flow without pressure gradient [kg/(s m)], and `poiseuille`, the
     profile of the flow due to the pressure gradient. This profile rises from 0 at surface 1 to 1 at surface 2.
     """
@@ -246,7 +246,7 @@ def uniform_columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers) -> tup
     Returns
     -------
     a : (n,) array
-        Flow coefficient A [s].
+        Flow coefficient A [s/m^2].
     b : (n,) array
         Flow coefficient B [kg/(m^2 s)].
     """
@@ -279,11 +279,11 @@ def face_fluxes(grid: Grid, pressure: Numbers, film: Numbers, a: Numbers, b: Num
     film : (n,) array
         H = h R/b^2 [-].
     a : (n,) array
-        Flow coefficient A [s].
+        Flow coefficient A [s/m^2].
     b : (n,) array
         Flow coefficient B [kg/(m^2 s)].
     scale : float
-        Factor p_H b^3/R^2, which turns A into the units of B [kg/(m^2 s^2)].
+        Factor p_H b^3/R^2 [Pa m]; the product of A and this factor has the units of B.
 
     Returns
     -------

@@ -19,7 +19,7 @@ COEFFICIENT = floats("value", "by_p", "by_g", "by_h")
 """A flow coefficient, and its derivatives with respect to p, G = h dp/dx and h."""
 
 PLACE = floats("p", "g", "h")
-"""Pressure p [Pa], G = h dp/dx after `rheology.limited_gradient` [Pa], and film thickness h [m] of a column."""
+"""Pressure p [Pa], G = h dp/dx [Pa] limited by `rheology.limited_gradient`, and film thickness h [m] of a column."""
 
 
 class FlowCoefficients(NamedTuple):

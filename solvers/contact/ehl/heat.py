@@ -76,7 +76,11 @@ per heat flux at the column itself [K m^2/W].
 
 
 class Surfaces(NamedTuple):
-    """Heat fluxes into both surfaces [W/m^2] and records `walls` of type WALLS, at all columns (n,)."""
+    """Values of both surfaces at all columns (n,).
+
+    `flux_1` and `flux_2` are the heat fluxes into the surfaces [W/m^2]. `walls` is an array with one record of type
+    WALLS per column.
+    """
 
     flux_1: FloatArray
     flux_2: FloatArray
@@ -291,7 +295,7 @@ def linearise_balances(
     film: Film,
     heat: Heat,
 ) -> None:
-    """Compute the derivatives of the heat balances of columns start..stop.
+    """Compute the derivatives of the heat balances of the columns `start` to `stop` - 1.
 
     `balance_columns` must have computed these columns before. The results are the tridiagonal part of the systems, and
     the right-hand sides for the mid-film stress, p, G and h. `damping` is an artificial heat capacity, divided by the
@@ -310,10 +314,12 @@ def linearise_balances(
 def column_slopes(
     i: int, temperature: FloatArray, g: float, h: float, conductance: float, inertia: float, film: Film, heat: Heat
 ) -> None:
-    """Compute the derivatives of `column_residual` with respect to the temperatures and to four other quantities.
+    """Compute the tridiagonal matrix and the four right-hand sides of the heat balance of column i.
 
-    The derivatives with respect to the temperatures are the rows of the matrix. The four other derivatives are
-    right-hand sides. They hold for the mid-film stress tau_m, for p, for G = h dp/dx and for h.
+    The rows of the matrix are the derivatives of `column_residual` with respect to the temperatures, at a fixed
+    mid-film stress tau_m. The first right-hand side is the derivative with respect to tau_m. The other right-hand sides
+    are the negative derivatives with respect to p, G = h dp/dx and h. These three include the effect of p, G and h on
+    tau_m.
     The heat that shear generates in an interval is stress times rate. This heat depends on temperature and p through
     the viscosity. This heat also depends on the stress, and a change of the mid-film stress tau_m changes the stress in
     all intervals.
@@ -369,7 +375,7 @@ def _scale_walls(i: int, inertia: float, heat: Heat) -> None:
 
 @kernel
 def factor_columns(start: int, stop: int, film: Film, heat: Heat) -> None:
-    """Factor the systems of columns start..stop, and solve every system for its four right-hand sides.
+    """Factor the systems of the columns `start` to `stop` - 1, and solve every system for its four right-hand sides.
 
     Thomas' algorithm factors the tridiagonal part, and the Sherman-Morrison formula adds the rank-one part. All arrays
     are changed in place. `pivot` becomes the inverse pivots, `lower` becomes the factors of the forward substitution,

@@ -77,7 +77,10 @@ def temperature(problem: Problem, attempt: Attempt) -> ContactTemperature:
 
 
 def mid_film(t: FloatArray) -> FloatArray:
-    """Return the temperatures (n,) half way between the surfaces. `t` (n, k) holds the temperatures of the columns."""
+    """Return the temperatures (n,) half way between the surfaces.
+
+    `t` (n, k) holds the temperatures at the k nodes of each of the n columns.
+    """
     middle = (t.shape[1] - 1) // 2
     return np.asarray(0.5 * (t[:, middle] + t[:, t.shape[1] // 2]))
 

@@ -62,7 +62,11 @@ def solve(inputs: LineContactInputs) -> LineContactResult:
 
 
 def resolution_for(inputs: LineContactInputs) -> Resolution:
-    """Return the numbers of nodes, the film thickness for which the mesh is graded, and the entry temperature."""
+    """Return the resolution of a contact.
+
+    The resolution contains the numbers of nodes, the film thickness for which the mesh is graded, and the temperature
+    of the isothermal film from which a thermal solution starts.
+    """
     model = inputs.model
     return Resolution(
         gap=expected_gap(inputs),

@@ -86,7 +86,7 @@ def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coeffic
 def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) -> None:
     """Compute film thickness, stress and flow of all columns at the inlet temperature.
 
-    First, the function sets the mark `state.cavitated` of the last node to the mark of the node before it.
+    First, the function copies the mark `state.cavitated` of the last but one node to the last node.
     """
     state.cavitated[-1] = state.cavitated[-2]
     film_shape(grid, state.pressure, state.separation[0], work.height)

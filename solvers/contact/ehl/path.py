@@ -139,11 +139,13 @@ def _guess(states: Sequence[State]) -> State:
 def _extrapolated(rows: FloatArray) -> FloatArray:
     """Extrapolate `rows` (m, ...) to the next row by Newton's backward differences.
 
-    The result is the last row plus differences of rising order. Suppose that the last row is predicted in
-    the same way from the rows before it. If the prediction uses only the orders below q, the error is the difference of
-    order q. If the prediction also uses order q, the error is the difference of order q + 1. The difference of order q
-    is therefore added only if the difference of order q + 1 is smaller. If one difference is not added, the differences
-    of higher order are not added either. For the highest order this comparison is left out.
+    The result is the last row plus the differences of order 1, 2 and so on. The difference of order q is added only if
+    the difference of order q + 1 is smaller. If one difference is not added, the differences of higher order are not
+    added either. The difference of the highest order is added if all other differences are added.
+
+    These rules follow from a prediction of the last row from the earlier rows. If this prediction uses only the orders
+    below q, the error of the prediction is the difference of order q. If the prediction also uses order q, the error is
+    the difference of order q + 1.
     """
     differences = [rows[-1]]
     while len(rows) > 1:

@@ -161,8 +161,8 @@ class Comparison:
     """Results of a contact (`fine`), and of the same contact on half as many nodes (`coarse`).
 
     `fine` and `coarse` are dictionaries with one entry per result. The key is the name of the result, as in
-    `MeshError`. The value is a tuple of parts; the sum of the parts is the result. `fall` is the steepest fall of P
-    from one node to the next. `kinks` holds the value of `_kink` for each surface [K].
+    `MeshError`. The value is a tuple of parts; the sum of the parts is the result. `fall` is the steepest fall of
+    the pressure P = p/p_H from one node to the next. `kinks` holds the value of `_kink` for each surface [K].
     """
 
     fine: dict[str, tuple[float, ...]]
@@ -197,11 +197,12 @@ class Comparison:
 def refine(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt, budget: Budget
 ) -> tuple[Attempt, MeshError | None]:
-    """Return a converged attempt on a sufficiently fine mesh, and the error of the results.
+    """Solve a contact on finer meshes until the mesh is fine enough; return the last converged attempt.
 
-    The error is None if it cannot be estimated. The attempt stays on its mesh in four cases: the mesh is fine enough;
-    the mesh has the largest number of nodes; no refinement is requested; or the solution on a finer mesh does not
-    converge within the remaining steps. The decision depends on the contact only, and not on how the contact was
+    `attempt` is a converged solution, from which the refinement starts. Also return the error of the results on the
+    last mesh, or None if this error cannot be estimated. The refinement ends before the mesh is fine enough in three
+    cases: the mesh has the largest number of nodes; no refinement is requested; or the solution on a finer mesh does
+    not converge within the remaining steps. The decision depends on the contact only, and not on how the contact was
     solved.
     """
     comparison = compare(inputs, constants, resolution, attempt)
@@ -227,9 +228,11 @@ def is_acceptable(comparison: Comparison | None) -> bool:
 
 
 def finer_nodes(nodes: int, comparison: Comparison | None) -> int:
-    """Return the number of nodes with which an error of second order would fall below the limit.
+    """Return the number of nodes of the next finer mesh, at most `FINEST`.
 
-    The number of intervals grows by a power of sqrt(2), so that contacts share meshes.
+    With this number, an error of second order would fall to the limit if the error is at most 16 times the limit. If
+    the error is not known, 4 times the limit is assumed. The number of intervals grows by a power of sqrt(2), so that
+    different contacts are solved on the same few meshes.
     """
     excess = 4.0 if comparison is None else min(comparison.smooth_error().largest / LARGEST_MESH_ERROR, 16.0)
     half_octaves = max(ceil(log2(excess)), 1)
@@ -243,7 +246,7 @@ def compare(
 
     Return None if the solution on half as many nodes fails. The solution on half as many nodes starts from the
     contact's own solution. One Newton step is usually enough. If there is a spike or a hot film, more steps are needed,
-    because the start values then contain the peak of the finer mesh.
+    because the start values then contain a peak that is sharper than on half as many nodes.
     """
     grid = grid_for(resolution.gap, resolution.nodes // 2 + 1)
     state = interpolate(attempt.state, attempt.grid.x, grid.x)
@@ -259,7 +262,7 @@ def compare(
 
 
 def _steepest_fall(attempt: Attempt) -> float:
-    """Return the largest fall of P from one node to the next, downstream of the centre."""
+    """Return the largest fall of the pressure P = p/p_H from one node to the next, downstream of the centre."""
     return float(-np.diff(attempt.state.pressure[attempt.grid.x > 0.0]).min())
 
 
@@ -267,8 +270,8 @@ def _kink(attempt: Attempt, surface: int) -> float:
     """Return the largest excess [K] of a node's surface temperature over the mean of both neighbouring nodes.
 
     Only nodes downstream of the centre are considered. Such an excess arises if the heat of a pressure spike affects
-    only one node. Another mesh may have a node that lies nearer to the spike. The temperature of that node would be
-    even higher than the temperature of the present node. The excess is used as an estimate of this difference.
+    only one node. On another mesh, a node may lie nearer to the spike and be hotter. The excess is used as an estimate
+    of the temperature difference between the hottest nodes of both meshes.
     """
     t = attempt.state.temperature[attempt.grid.x > 0.0, surface]
     return float((t[1:-1] - 0.5 * (t[:-2] + t[2:])).max())

@@ -65,9 +65,10 @@ class ContactPressure:
 
 @record
 class ContactTemperature:
-    """Largest temperatures of the film, of its middle and of both surfaces [K], with their positions [m].
+    """Largest temperatures of the film, of the middle of the film and of both surfaces [K].
 
-    The flash temperature of a surface is the rise of its largest temperature above its bulk temperature [K].
+    The position [m] of each largest temperature is also stated. The flash temperature [K] of a surface is the largest
+    temperature of the surface minus the bulk temperature of the surface.
     """
 
     film_max: float = quantity("largest film temperature", "θ_max", f"{XUE}, Eq. 23", unit="c")
@@ -157,13 +158,16 @@ class MeshError:
 
 @record
 class Convergence:
-    """How the iteration ended: number of Newton steps, last changes of P and temperature [K], relative load error.
+    """How the iteration ended: Newton steps, last changes of pressure and temperature, and load error.
+
+    The change of pressure is divided by the Hertzian pressure. The change of temperature is in [K]. The load error is
+    relative to the load.
 
     `stage` is the stage at which the iteration ended. The iteration may raise the Eyring stress in steps. If one of
     these steps failed, `eyring_stress` [Pa] is the last stress at which the iteration converged, or 0 if there was no
-    such stress. In all other cases `eyring_stress` is None. The changes of P and of temperature are None if the budget
-    allowed no step. The change of temperature is also None if the contact is isothermal. `departure` [K] is the error
-    of the temperatures in a finished thermal state, computed by `refinement.departure`.
+    such stress. In all other cases `eyring_stress` is None. The changes of pressure and of temperature are None if the
+    budget allowed no Newton step. The change of temperature is also None if the contact is isothermal. `departure` [K]
+    is the error of the temperatures in a finished thermal state, computed by `refinement.departure`.
     """
 
     iterations: int = quantity("Newton steps", text="Newton steps in all")
@@ -198,7 +202,7 @@ class Convergence:
 
     @property
     def residuals(self) -> dict[str, float]:
-        """Remaining errors by name: changes of P and temperature [K], load error, departure [K].
+        """Errors that remained when the iteration ended, under the names of their fields.
 
         Errors that are None are left out.
         """
@@ -215,7 +219,7 @@ class Convergence:
 class ContactCurves:
     """Curves along the contact (n,); temperatures and heat fluxes are None if the contact is isothermal.
 
-    The heat fluxes are those into the surfaces; they vary linearly between the nodes.
+    A heat flux is positive if heat enters the surface. The heat fluxes vary linearly between the nodes.
     """
 
     x: FloatArray = quantity("position along the flow", "x", unit="mm")
@@ -246,7 +250,7 @@ class ContactField:
 
 @dataclass(frozen=True, kw_only=True)
 class Derived(OilInUse):
-    """Mean surface speed, reduced modulus and oil, which follow from the inputs alone."""
+    """Mean surface speed, reduced modulus and properties of the oil, which follow from the inputs alone."""
 
     entrainment_speed: float = quantity("mean surface speed", "u_m", XUE, unit="m_per_s")
     reduced_modulus: float = quantity("reduced modulus", "E'", XUE, unit="gpa")
@@ -278,5 +282,5 @@ class LineContactResult:
 
     @property
     def residuals(self) -> dict[str, float]:
-        """Remaining errors of an iteration that has not converged."""
+        """Errors that remained when the iteration ended (see `Convergence.residuals`)."""
         return self.convergence.residuals

@@ -31,7 +31,7 @@ class Shear(NamedTuple):
 
 
 class Flow(NamedTuple):
-    """Stream functions, and derivatives of ln A and B with respect to the nodal temperatures, all (n, m + 1).
+    """Stream functions, and derivatives of ln A and of B with respect to the nodal temperatures, all (n, m + 1).
 
     `stream` is the mass flow between surface 1 and a node [kg/(m s)]. `couette` is the part of this flow that does not
     depend on the pressure gradient [kg/(m s)]. `poiseuille` is the profile of the other part, which the pressure

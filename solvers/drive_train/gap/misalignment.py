@@ -53,7 +53,10 @@ def _even_gap(inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, equilibriu
 
 
 def gap_parts(unit: Unit, loads: FloatArray) -> Parts:
-    """Return the contribution of each cause to the slope of the gap, under given loads of the ports."""
+    """Return the contribution of each cause to the slope of the gap.
+
+    `loads` holds the loads at the ports [N, N m]. The ports are the stations of the face and the hubs on the shafts.
+    """
     count = unit.stations.size
     force, hubs = loads[:count], loads[count:]
     axial = np.arange(hubs.size) % LOADS == LOADS - 1

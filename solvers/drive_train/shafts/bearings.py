@@ -215,5 +215,5 @@ def _attitude_slope(eccentricity: float) -> float:
 
 
 def _turn(angle: float) -> FloatArray:
-    """Return a rotation matrix."""
+    """Return the matrix that rotates a vector by `angle` [rad]."""
     return np.array([[cos(angle), -sin(angle)], [sin(angle), cos(angle)]])

@@ -85,7 +85,7 @@ class CouplingPort:
     def driving(self) -> tuple[float, float]:
         """Signs s_d of hubs A and B: +1 for a hub that drives the sleeve, else -1.
 
-        One machine drives the pinion. The wheel drives another machine.
+        The machine on the pinion's shaft drives the unit. The unit drives the machine on the wheel's shaft.
         """
         return (-1.0, 1.0) if self.inputs.shaft == "pinion" else (1.0, -1.0)
 

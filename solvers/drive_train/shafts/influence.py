@@ -29,9 +29,9 @@ class ShaftPorts:
 
     `loads` (2 planes, 2N, ports) and `torques` (N, ports) are the loads on the nodes per unit load of the ports.
     `mesh_loads` (2 planes, 2N, stations) holds only the transverse forces of the stations. `weight` and `collar`
-    (2 planes, 2N) are constant loads. `weight` is the weight of the shaft and of half a sleeve. `collar` is the moment
-    of the thrust collar under the axial force of the mesh. The moment of the collar under the thrust of the pinion's
-    coupling is part of `loads`.
+    (2 planes, 2N) are constant loads. `weight` is the weight of the shaft and of the parts of the sleeves that the hubs
+    on this shaft carry. `collar` is the moment of the thrust collar under the axial force of the mesh. The moment of
+    the collar under the thrust of the pinion's coupling is part of `loads`.
     """
 
     model: ShaftModel

@@ -22,11 +22,12 @@ GRAVITY = 9.80665  # m/s^2, standard gravity (CGPM 1901)
 class ShaftModel:
     """A shaft with N nodes at the positions z [m].
 
-    A motion in one plane is a vector (2N,) of the deflections [m] and the slopes [rad] of all nodes. The conjugate
-    loads are forces [N] and moments [N m]. `flexibility` (2N, 2N) gives this motion under these loads if both bearings
-    are at rest. `bearing_share` (2, 2N) gives the loads on the bearings under nodal loads; the transpose gives the
-    motion of the nodes that displacements of the bearings cause. `torsion` (N, N) gives the twist under nodal torques
-    [rad/(N m)]. `weight` (2N,) holds the nodal loads of the weight.
+    A motion in one plane is a vector (2N,) of the deflections [m] and the slopes [rad] of all nodes. The nodal loads
+    are the vector (2N,) of the conjugate forces [N] and moments [N m]. `flexibility` (2N, 2N), times the nodal loads,
+    gives the motion if both bearings are at rest. `bearing_share` (2, 2N), times the nodal loads, gives the loads on
+    the bearings. The transpose of `bearing_share`, times displacements of the bearings, gives the motion that these
+    displacements cause. `torsion` (N, N) is the twist of the nodes per nodal torque [rad/(N m)]. `weight` (2N,) holds
+    the nodal loads that are due to the weight of the shaft.
     """
 
     z: FloatArray
@@ -153,10 +154,11 @@ def _flexibility(
 
 
 def _torsion(shaft: Shaft, z: FloatArray, elements: list[ShaftSection], torque_position: float) -> FloatArray:
-    """Return the twist at node i per torque at node j.
+    """Return the matrix (N, N) of the twist at node i per torque at node j.
 
-    If the nodes i and j lie on the same side of the torque input, the result is the twist of the shaft between the
-    torque input and the nearer of both nodes. If the nodes lie on different sides of the torque input, the result is 0.
+    If the nodes i and j lie on the same side of the torque input, the element (i, j) is the twist of the shaft between
+    the torque input and the node that is nearer to the torque input. If the nodes lie on different sides of the torque
+    input, the element is 0.
     """
     modulus = shaft.youngs_modulus / (2 * (1 + shaft.poisson_ratio))
     twist = np.diff(z) / (2 * modulus * np.array([second_moment(part) for part in elements]))

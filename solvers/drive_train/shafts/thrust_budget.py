@@ -101,7 +101,7 @@ def thrust_budget(
     mesh : float
         Axial force of the mesh on the pinion [N].
     couplings : tuple of float
-        Thrust on the pinion's shaft by the couplings of this shaft, and the same for the wheel's shaft [N].
+        Thrust of the couplings on the pinion's shaft, and thrust of the couplings on the wheel's shaft [N].
     limits : tuple of float
         Largest thrust on each shaft that the friction in the couplings of this shaft can cause [N].
     diameters : tuple of float or None

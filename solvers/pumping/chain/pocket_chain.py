@@ -152,7 +152,7 @@ def _mach(gas: Gas, left: float, right: float) -> float:
 
 @kernel
 def _record_field(gas: Gas, pockets: RecordArray, record: Record, low: int, high: int, k: int) -> None:
-    """Record the gas in the active pockets at the angle with the number k."""
+    """Record the gas in the active pockets in row k of the record; k is the index of the angle."""
     field = record.field
     mach = 0.0
     for i in range(low, high):

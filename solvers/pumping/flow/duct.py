@@ -6,17 +6,17 @@ from solvers.arrays import FloatArray, RecordArray, floats, records
 from solvers.compiled import kernel
 
 WALL = floats("area", "clearance", "carried")
-"""Values of a cell that depend on its walls, see `Wall`."""
+"""Fields of a record that holds the walls of a cell; `Wall` explains these fields."""
 
 
 class Duct(NamedTuple):
     """A stretch of a tooth space cut into equal cells.
 
     `start` is the distance from the end that meshes first [m]; `width` is the width of a cell [m], and `cells` is
-    the number of cells. At the distance z from the end that meshes first, the stroke begins later by the angle `lag` z;
-    `lag` has the unit [rad/m]. The owner is the gear to which the space belongs, and `speed` is the speed of the owner
-    [rad/s]. `wall_table` builds `table`. Row k of `table` holds the walls at the angle `first_angle` + k `angle_step`
-    [rad]. `discharge` is the discharge coefficient.
+    the number of cells. `lag` [rad/m] is the angle per length by which the stroke begins later with increasing distance
+    from the end that meshes first. The owner is the gear to which the space belongs, and `speed` is the speed of the
+    owner [rad/s]. `wall_table` builds `table`. Row k of `table` holds the walls at the angle `first_angle` + k
+    `angle_step` [rad]. `discharge` is the discharge coefficient.
     """
 
     start: float

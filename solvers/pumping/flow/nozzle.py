@@ -52,7 +52,7 @@ def gas(ambient: Ambient) -> Gas:
 
 @inlined_kernel
 def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tuple[float, float, float]:
-    """Compute the square of the mass flux through an opening, and the derivatives of this square by both pressures.
+    """Compute the square G^2 of the mass flux, and the derivatives of G^2 with respect to both pressures.
 
     Parameters
     ----------
@@ -70,9 +70,9 @@ def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tupl
     squared : float
         Square of the mass flux [kg^2/(s^2 m^4)]; for a negative drop, a linear continuation with negative values.
     by_upstream : float
-        Derivative by the upstream pressure at a fixed density upstream [kg^2/(s^2 m^4 Pa)].
+        Derivative with respect to the upstream pressure at a fixed density upstream [kg^2/(s^2 m^4 Pa)].
     by_downstream : float
-        Derivative by the downstream pressure [kg^2/(s^2 m^4 Pa)].
+        Derivative with respect to the downstream pressure [kg^2/(s^2 m^4 Pa)].
 
     Notes
     -----
@@ -116,7 +116,7 @@ def _expansion(power: float, drop: float) -> tuple[float, float]:
 
 @kernel
 def mass_flux(gas: Gas, upstream: float, density: float, downstream: float) -> tuple[float, float, float]:
-    """Compute the mass flux G through an opening, and the derivatives of G by both pressures.
+    """Compute the mass flux G through an opening, and the derivatives of G with respect to both pressures.
 
     Parameters
     ----------
@@ -134,9 +134,9 @@ def mass_flux(gas: Gas, upstream: float, density: float, downstream: float) -> t
     flux : float
         Mass flux [kg/(s m^2)].
     by_upstream : float
-        Derivative by the upstream pressure at a fixed density upstream [kg/(s m^2 Pa)].
+        Derivative with respect to the upstream pressure at a fixed density upstream [kg/(s m^2 Pa)].
     by_downstream : float
-        Derivative by the downstream pressure [kg/(s m^2 Pa)].
+        Derivative with respect to the downstream pressure [kg/(s m^2 Pa)].
 
     Notes
     -----

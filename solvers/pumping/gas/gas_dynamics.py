@@ -159,7 +159,8 @@ def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> fl
 def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int, new_high: int, angle: float) -> None:
     """Set the gas in every cell that begins its stroke to the state that `_border` computes.
 
-    The active cells were low..high in the step before, and are now new_low..new_high.
+    In the previous step, the active cells had the indices from `low` to `high` - 1. In this step, the active cells have
+    the indices from `new_low` to `new_high` - 1.
     """
     rho, u, p = _border(gas, duct, cells, low, high)
     for i in range(new_low, new_high):
@@ -194,7 +195,8 @@ def _record_changes(duct: Duct, cells: Cells, record: Record, low: int, high: in
     """Update the balances of mass and energy if the stroke of a cell ends or begins between two steps.
 
     The content of a cell whose stroke ends is added to `ended`. The content of a cell whose stroke begins is added to
-    `begun`. The active cells were low..high in the step before, and are now new_low..new_high.
+    `begun`. In the previous step, the active cells had the indices from `low` to `high` - 1. In this step, the active
+    cells have the indices from `new_low` to `new_high` - 1.
     """
     for i in range(low, high):
         if i < new_low or i >= new_high:
@@ -234,7 +236,7 @@ def _record_ends(
 def _record_cells(
     gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float, longest: float
 ) -> None:
-    """Record wall losses, mean temperatures and extremes of the active cells.
+    """Record wall losses, work, mean temperatures and extremes of the active cells.
 
     Mean temperatures follow from the trapezoidal rule. The extremes leave out two kinds of cells:
 

@@ -22,8 +22,9 @@ class Walls(NamedTuple):
     """The walls of a cell at one instant.
 
     `area` is the area of the cell's section [m^2], and `growth` is the rate at which this area grows [m^2/s]. `gap` is
-    the clearance times the discharge coefficient [m]. `transport` is the rate at which the moving flanks take gas out
-    of the space, as a cross-section of gas per unit time [m^2/s].
+    the clearance times the discharge coefficient [m]. `transport` is the volume of gas that the moving flanks carry
+    out of the cell, per unit time and per metre of face [m^2/s]. If `transport` is negative, the flanks carry ambient
+    gas into the cell.
     """
 
     area: float
@@ -128,9 +129,11 @@ def _unphysical() -> Stage:
 
 @kernel
 def _improve(flux: float, squared: float, slope: float) -> float:
-    """Solve the nozzle law linearised in the flux, new^2 = squared + slope (new - flux), for new > 0.
+    """Return the positive root x of x^2 = squared + slope (x - flux); return 0 if there is no positive root.
 
-    `slope` must not be positive.
+    This equation is the nozzle law, linearised at the flux `flux`. The root x is the next approximation of the flux.
+    `squared` is the square of the flux by the nozzle law, and `slope` is the derivative of `squared` with respect to
+    the flux. `slope` must not be positive.
     """
     constant = squared - slope * flux
     if constant <= 0.0:

@@ -41,7 +41,7 @@ the gas by pressures above ambient pressure [J/m].
 """
 
 END = floats("demand", "mach", "velocity")
-"""An end of the duct in a step: demand (see `reservoir_face`), Mach number, outward velocity [m/s]."""
+"""Values at an end of the duct in a step: demand (see `reservoir_face`), Mach number, outward velocity [m/s]."""
 
 LEAK = floats("latest", "halfway", "growth")
 """Flux out of a cell through the gaps, from which the first guess for the next step is extrapolated.
@@ -84,7 +84,7 @@ class Cells(NamedTuple):
 
 
 def empty_cells(cells: int) -> Cells:
-    """Return the arrays of a duct of `cells` cells."""
+    """Return the arrays of a duct of `cells` cells; all values are 0."""
     return Cells(
         content=records(cells, CONSERVED),
         state=records(cells, STATE),
@@ -118,7 +118,10 @@ def set_walls(duct: Duct, cells: Cells, low: int, high: int, angle: float, turn:
 
 @kernel
 def _put(walls: RecordArray, i: int, wall: Wall, share: float) -> None:
-    """Store the walls of cell i; the clearance is multiplied by the share of the step in which the gap is open."""
+    """Store the walls of cell i.
+
+    The clearance is multiplied by `share`, the share of the step in which the gap is open.
+    """
     walls[i].area, walls[i].clearance, walls[i].carried = wall.area, share * wall.clearance, wall.carried
 
 
@@ -206,8 +209,9 @@ def _limited(side: int, back: float, ahead: float) -> float:
 def _end_slope(nearest: float, next_one: float) -> float:
     """Compute the limited slope in an end cell from the two differences that are nearest to this cell.
 
-    The slope is the slope of a parabola in the end cell, but not steeper than twice the nearest difference. The slope
-    is 0 if the signs of the parabola's slope and of the nearest difference are opposite.
+    The result is the slope, in the end cell, of the parabola through the values of the three cells at this end. But the
+    result is at most as steep as twice the nearest difference. If the signs of the parabola's slope and of the nearest
+    difference are opposite, the result is 0.
     """
     slope = 1.5 * nearest - 0.5 * next_one
     if slope * nearest <= 0.0:
@@ -219,7 +223,7 @@ def _end_slope(nearest: float, next_one: float) -> float:
 def _walls(duct: Duct, now: RecordArray, after: RecordArray, i: int, fraction: float, dt: float) -> Walls:
     """Interpolate the walls of cell i linearly between the start and the end of a step.
 
-    At the instant of the result, the fraction `fraction` of the step has passed.
+    The result is for the instant at which the share `fraction` of the step has passed.
     """
     return Walls(
         now[i].area + fraction * (after[i].area - now[i].area),
@@ -268,7 +272,10 @@ def _own_flux(g: float, area: float, edge: State) -> Conserved:
 
 @kernel
 def _edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
-    """Extrapolate the state w by the slope s to an edge of cell i; the edge lies `side` cell widths from the centre."""
+    """Extrapolate the state w by the slope s from the centre of cell i to an edge of this cell.
+
+    `side` is the position of the edge in cell widths from the centre, -0.5 or 0.5.
+    """
     return State(
         w[i].density + side * s[i].density,
         w[i].velocity + side * s[i].velocity,
@@ -330,10 +337,11 @@ def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
 
 @kernel
 def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
-    """Compute the content at the end of the step.
+    """Compute mass, momentum and energy of the cells at the end of the step.
 
-    The content follows from the fluxes in the middle of the step, and from the exchange with the walls. The exchange is
-    computed in two implicit stages.
+    These values follow from the fluxes in the middle of the step, and from the exchange with the walls. The exchange is
+    computed in two implicit stages, or in a single stage if one of the two stages fails. Return False if the single
+    stage also fails.
     """
     fluxes, area, c, h = cells.flux, cells.face_area, cells.content, _DIAGONAL * dt
     loss, leak = cells.loss, cells.leak

@@ -1,4 +1,4 @@
-"""The face width between grooves: stretches of a tooth space that are open at both ends and cut into slices."""
+"""Stretches of a tooth space between the grooves. Both ends of a stretch are open; a stretch is cut into slices."""
 
 from dataclasses import dataclass, replace
 
@@ -40,8 +40,9 @@ def stretches(face_width: float, grooves: tuple[Groove, ...], slices: int, least
     """Cut the face between its grooves into about `slices` slices of nearly equal width.
 
     Every stretch has at least `least` slices, and no slice overlaps a groove.
-    Raises InvalidInput: groove_outside if a groove reaches beyond the face or the grooves cover the whole face;
-    groove_overlap if two grooves overlap.
+
+    Raises InvalidInput (`groove_outside`) if a groove reaches beyond the face or if the grooves cover the whole face.
+    Raises InvalidInput (`groove_overlap`) if two grooves overlap.
     """
     edges = [0.0]
     for k, groove in sorted(enumerate(grooves), key=lambda pair: pair[1].position):

@@ -27,7 +27,10 @@ def involute(roll: float, base: float) -> float:
 
 @kernel
 def sector(roll: float, base: float) -> float:
-    """Compute the area [m^2] under an involute from its start up to a roll length [m]: 1/2 integral r^2 dpsi."""
+    """Compute the area [m^2] between an involute and the centre of its base circle: 1/2 integral r^2 dpsi.
+
+    The area extends from the start of the involute to the point at the roll length `roll` [m].
+    """
     return roll**3 / (6.0 * base)
 
 
@@ -53,7 +56,7 @@ def _distance_to_fillet(fillet: RackFillet, t: float, radius: float, angle: floa
 def _nearest_on_fillet(fillet: RackFillet, radius: float, angle: float) -> tuple[float, float]:
     """Find the point of the fillet nearest to (radius, angle).
 
-    Returns the parameter of this point on the fillet, and the distance between both points [m].
+    Returns the arc parameter [rad] of the nearest point, and the distance [m] of this point from (radius, angle).
     """
     step = fillet.end / (_SCAN - 1)
     best, nearest = 0, np.inf
@@ -76,7 +79,7 @@ def _nearest_on_fillet(fillet: RackFillet, radius: float, angle: float) -> tuple
 def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[float, float]:
     """Find the point of the space's flank nearest to (radius, angle).
 
-    Returns the roll length of this point [m], and the distance between both points [m].
+    Returns the roll length [m] of the nearest point, and the distance [m] of this point from (radius, angle).
     """
     base, start = space.base_radius, space.root.involute_roll
     if radius > base:
@@ -96,9 +99,9 @@ def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[floa
 def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[float, float, float, float]:
     """Find the point of the space's profile nearest to (radius, angle).
 
-    Only one half of the symmetric profile is searched. Returns the distance between both points [m]; radius [m] and
-    angle [rad] of the nearest point; and the area between the owner's axis and the profile up to the nearest point
-    [m^2].
+    Only one half of the symmetric profile is searched. Returns the distance [m] of the nearest point from (radius,
+    angle); radius [m] and angle [rad] of the nearest point; and the area [m^2] between the axis of the space's gear and
+    the profile up to the nearest point.
     """
     root, base = space.root, space.base_radius
     roll, distance = _foot_on_flank(space, radius, angle)
@@ -122,7 +125,7 @@ def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[
 def foot_on_mate(space: ToothSpace, radius: float, angle: float) -> tuple[float, float]:
     """Find the point of the mate's flank nearest to (radius, angle).
 
-    Returns the roll length of this point [m], and the distance between both points [m].
+    Returns the roll length [m] of the nearest point, and the distance [m] of this point from (radius, angle).
     """
     base = space.mate_base_radius
     foot = 0.0

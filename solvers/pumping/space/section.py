@@ -120,9 +120,10 @@ def _carried(space: ToothSpace, roll: float, gap: float) -> float:
 def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tuple[float, float, float]:
     """Compute area [m^2] and clearance [m] of a side, and the area [m^2] of gas carried through the side's section.
 
-    Flanks that face each other close the space on the line of action, where they are `gap` [m] apart. If the gap is 0,
-    the involutes are used down to the base circles even if the gear is undercut. The calculation of the path of contact
-    also uses the involutes down to the base circles.
+    Flanks that face each other close the space on the line of action, where the distance between the flanks is `gap`
+    [m]. If `gap` is 0, the clearance is 0 wherever the line of action meets both involutes. Both involutes then start
+    at their base circles, even if a gear is undercut. The calculation of the path of contact makes the same assumption.
+
     If the gap is wide, a tip corner may be closer to the other gear (for example to the root fillet) than the flanks
     are to each other. The clearance is then the distance between the tip corner and the other gear, but the section
     that bounds the area stays on the line of action.

@@ -55,8 +55,8 @@ class StrokeTable:
     def jump(self) -> tuple[float, float]:
         """Largest jump of the logarithm of the area between two positions (0 if none), and the angle of the jump [rad].
 
-        With tip gaps the point nearest to a tip corner can jump from the flank to the root. With contact gaps the area
-        has no jump.
+        If the model has tip gaps, the point of the space that is nearest to a tip corner of the mating tooth can jump
+        from the flank to the root. The area then jumps too. If the model has contact gaps, the area has no jump.
         """
         change = np.abs(np.diff(np.log(self.area)))
         beside = np.maximum(np.append(change[1:], change[-2]), np.append(change[1], change[:-1]))

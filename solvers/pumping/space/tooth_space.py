@@ -99,9 +99,10 @@ def _thinning(pair: GearPair, normal_backlash: float) -> float:
 
 
 def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: bool) -> ToothSpace:
-    """Describe the space of the pinion or of the wheel, and the mate's tooth thinned by the extra backlash [m].
+    """Describe a tooth space of the pinion or of the wheel, and the mate's tooth that passes through this space.
 
-    Raises InvalidInput: pointed_tooth if the thinned tooth of the mate is pointed; also the codes of `path_of_contact`.
+    `extra_backlash` [m] is the normal backlash due to a thinner tooth of the mate. Raises InvalidInput `pointed_tooth`
+    if the thinner tooth is pointed. Raises the errors of `path_of_contact`.
     """
     path, whole = path_of_contact(pair), pair.line_of_action
     first, last = (path.start, path.end) if of_pinion else (whole - path.end, whole - path.start)

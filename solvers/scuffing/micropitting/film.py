@@ -117,7 +117,7 @@ def _effusivity(solid: Solid) -> float:
 def film_thickness(conditions: Conditions, contacts: Contacts, flash: FloatArray) -> FloatArray:
     """Compute the film of contacts.
 
-    The film at the bulk temperature is reduced, because the flash temperature thins the oil.
+    The film is computed at the bulk temperature and then reduced, because the flash temperature thins the oil.
 
     Parameters
     ----------

@@ -1,10 +1,10 @@
 """Flash temperature (Blok) and film (Dowson and Higginson) over the flank; search for hottest point and thinnest film.
 
-The feature line of the paper is a diagonal of the flank. If the load is carried at one end of the face, the feature
-line misses the hot corner of the flank. If the flank is crowned, the feature line crosses the loaded middle of the face
-only near the pitch point, where the flanks do not slide. The search therefore covers the whole flank. It first takes
-the largest value over the face at every place along the path. It then continues on finer grids around the places at
-which these values are highest.
+Xue, Zhang and Wang (2020) consider only the feature line, which is a diagonal of the flank. If the load is carried at
+one end of the face, the feature line misses the hot corner of the flank. If the flank is crowned, the feature line
+crosses the loaded middle of the face only near the pitch point, where the flanks do not slide. The search therefore
+covers the whole flank. First, the largest value over the face is taken at every place along the path. Then the search
+continues on finer grids around the places at which these values are highest.
 """
 
 from collections.abc import Callable
@@ -224,21 +224,20 @@ def formula_film(inputs: ScuffingInputs) -> ContactFunction:
 
 
 def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return `peak`, or the highest point on certain lines of the flank if this point is higher than `peak`.
+    """Return the highest of `peak`, the points of the feature line, and the points that `_or_beside` searches.
 
-    These lines are the feature line of the pair and the lines that `_or_beside` searches.
+    The feature line is the diagonal of the flank from y = 0 at A to the other end of the face at E.
     """
     along_feature_line = _peak_along(distribution, function, mirrored=False)
     return _or_beside(distribution, max(peak, along_feature_line, key=_height), function)
 
 
 def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return the highest of `peak` and the values on certain lines of the flank.
+    """Return the highest of `peak`, the points of the profile line through `peak`, and the points of a diagonal.
 
-    The profile line through `peak` is searched. For spur pairs, the feature line of the mirror image of the pair is
-    searched as well. This feature line is one diagonal of the flank. The other diagonal is the feature line of the pair
-    itself. Other functions search this other diagonal. Both diagonals must be searched, so that a pair and its mirror
-    image have the same largest value.
+    The diagonal is searched for spur pairs only. Of the two diagonals of the flank, this function searches the diagonal
+    that is not the feature line. Other functions search the feature line. In the mirror image of a spur pair, the two
+    diagonals are interchanged. Because both are searched, the pair and its mirror image have the same largest value.
     """
     peak = max(peak, _peak_at_kinks(distribution, function, peak), key=_height)
     if distribution.path_of_contact.plane.tan_base_helix > 0.0:

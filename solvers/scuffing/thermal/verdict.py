@@ -156,10 +156,10 @@ def without_thermal(flash: Flash, film: Film) -> tuple[Flash, Film]:
 def _extreme(
     lines: Sequence[CheckedLine], curves: Sequence[FloatArray], *, largest: bool
 ) -> tuple[float, float, float] | None:
-    """Return the largest or smallest value of all lines, and the place of this value.
+    """Return the largest value of all lines, or the smallest if `largest` is False, and the place of this value.
 
-    The place is stated by the fraction of the path and by the distance on the face [m]. The result is None if all
-    values are NaN.
+    The place is stated by the fraction of the path and by the distance [m] from the end of the face that meshes first.
+    The result is None if all values are NaN.
     """
     values = np.concatenate(curves)
     if not _any_number(values):
@@ -171,7 +171,10 @@ def _extreme(
 
 
 def _place_on(path: ScuffingPath, values: FloatArray, *, largest: bool) -> float | None:
-    """Return psi at the largest or smallest value along a path; None if all values are NaN."""
+    """Return the position psi of the largest value along a path; None if all values are NaN.
+
+    The position is a fraction of the path. If `largest` is False, the position of the smallest value is returned.
+    """
     if not _any_number(values):
         return None
     return float(path.psi[np.nanargmax(values) if largest else np.nanargmin(values)])
