@@ -663,7 +663,10 @@ def _stated(law: str, about: Any, by: Any) -> dict[str, Any]:
 
 
 def _typed(scatter: dict[str, Any]) -> dict[str, Any]:
-    """Convert a distribution in the body into the values of the controls. This function is the inverse of `_stated`."""
+    """Convert a distribution in the body into the values of the controls.
+
+    The controls have no mode, so a triangular distribution gets its mode in the middle of its range.
+    """
     law = scatter["distribution"]
     if names := STATED.get(law):
         about, by = (scatter[name] for name in names)
