@@ -38,6 +38,7 @@ from app.figures.data import (
 from app.figures.drawing.image import draw, draw_for_report, laid_out, places
 from app.figures.drawing.style import NARROW, themed, written
 from app.figures.studies import Influence, corners, influence
+from app.pages.charts import in_columns
 
 X = np.linspace(0.0, 1.0, 41)
 PEAK = 4.0 * X * (1.0 - X)
@@ -123,6 +124,17 @@ def test_a_figure_in_a_column_of_a_report_has_no_collisions() -> None:
     long = replace(PANEL, levels=(Level(1.5, name),))
     for wide in (Figure("a finding", (long,), title="two peaks"), replace(figure, beside=True)):
         assert draw_for_report(wide) == (wide, draw(wide, "svg"))
+
+
+def test_figures_of_a_report_stand_in_pairs_of_about_the_same_height() -> None:
+    wide = Figure("wide", (PANEL, PANEL), beside=True)
+    low, high, next_low, next_high = (
+        Figure(name, (PANEL,) * count) for name, count in zip("abcd", (1, 2, 1, 2), strict=True)
+    )
+    columns = in_columns([wide, low, high, next_low, next_high])
+    assert [figure.finding for figure, _ in columns] == ["a", "c", "b", "d", "wide"]
+    assert [figure.narrow for figure, _ in columns] == [True, True, True, True, False]
+    assert all(address.startswith("data:image/svg+xml;base64,") for _, address in columns)
 
 
 @pytest.mark.parametrize("narrow", [False, True])
@@ -297,6 +309,8 @@ def test_awkward_data_are_drawn(name: str) -> None:
         assert draw(figure, image_format).startswith(begins)
     for place in places(figure):
         assert np.isfinite([*place.box, *place.x, *place.y]).all()
+    placed, image = draw_for_report(figure)
+    assert image == draw(placed, "svg")
 
 
 def test_limits_far_from_the_values_are_named_at_the_edge() -> None:

@@ -56,6 +56,19 @@ def test_a_quantity_chosen_before_the_script_arrives_is_varied_and_the_page_can_
     page.go_back(wait_until="load")
     page.wait_for_timeout(1000)
     assert "&x=" not in page.url
+    expect(page.locator("select[name=x]")).to_have_value("")
+
+
+def test_a_range_typed_before_the_script_arrives_is_kept(visit: Callable[..., Page]) -> None:
+    page = visit("/")
+    arrive = hold_scripts(page)
+    page.goto(address_of(COUPLING, "/vary"), wait_until="commit")
+    page.locator("select[name=x]").select_option("operation.misalignment_deg")
+    page.locator('[name="x.to"]').fill("0.2")
+    arrive()
+    page.wait_for_load_state("load")
+    page.get_by_role("button", name="Calculate").click()
+    expect(page).to_have_url(re.compile(r"x\.to=0\.2"))
 
 
 def test_the_figure_grows_while_points_come_and_stop_ends_it(visit: Callable[..., Page], server: str) -> None:

@@ -28,13 +28,20 @@ def overflow(page: Page) -> int:
 def hold_scripts(page: Page) -> Callable[[], None]:
     """Hold back the scripts of the pages opened from now on. The returned function lets the scripts arrive."""
     held: list[Route] = []
-    page.route("**/*.js*", lambda route: held.append(route))  # noqa: PLW0108  a built-in method cannot carry the mark of Playwright
+    arrived: list[bool] = []
+
+    def hold(route: Route) -> None:
+        if arrived:
+            route.continue_()
+        else:
+            held.append(route)
 
     def arrive() -> None:
+        arrived.append(True)
         for route in held:
             route.continue_()
-        page.unroute("**/*.js*")
 
+    page.route("**/*.js*", hold)
     return arrive
 
 

@@ -211,6 +211,5 @@ window.addEventListener("resize", keepClear);
 form.querySelectorAll("textarea[data-count]").forEach(count);
 prepareResult();
 // Users may type or choose before this script arrives.
-form.querySelectorAll("input[type=text], textarea").forEach((control) => { if (control.value !== control.defaultValue) clearFellows(control); });
 schedule();
 openExample();

@@ -15,12 +15,21 @@ document.addEventListener("click", (event) => {
 
 document.addEventListener("change", (event) => choose(event.target));
 
-function choose(control) {
+// The range of another quantity is no range of the chosen quantity. Controls that `isKept` names keep their values; then
+// the user presses Calculate.
+function choose(control, isKept = () => false) {
   control.parentElement.querySelector(".chosen")?.remove();
   const axis = control.matches("select[name=x], select[name=y]") ? control.name : null;
   if (!axis) return;
-  for (const part of ["from", "to", "scale"]) document.getElementById(`f.${axis}.${part}`).value = "";
-  if (document.querySelector("select[name=x]").value) control.form.requestSubmit();
+  const range = ["from", "to", "scale"].map((part) => document.getElementById(`f.${axis}.${part}`));
+  const kept = range.filter(isKept);
+  range.filter((part) => !kept.includes(part)).forEach((part) => { part.value = ""; });
+  if (!kept.length && document.querySelector("select[name=x]").value) control.form.requestSubmit();
+}
+
+// Whether a user changed a control since the server sent the page.
+function isChanged(control) {
+  return control.value !== (control.defaultValue ?? (control.querySelector("[selected]") ?? control.options[0])?.value);
 }
 
 function watch() {
@@ -107,10 +116,8 @@ function rounded(value) {
   return typeof value === "number" ? Number(value.toPrecision(5)) : value;
 }
 
-// Users may choose before this script arrives.
-for (const select of document.querySelectorAll("select[name=x], select[name=y]")) {
-  if (select.value !== (select.querySelector("[selected]") ?? select.options[0]).value) choose(select);
-}
 watch();
 if (document.readyState === "complete") finish();
 else window.addEventListener("load", finish);
+// Users may choose and type before this script arrives.
+[...document.querySelectorAll("#study select")].filter(isChanged).forEach((select) => choose(select, isChanged));

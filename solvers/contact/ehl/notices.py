@@ -42,9 +42,8 @@ def input_notices(inputs: LineContactInputs, groups: Dimensionless) -> list[Noti
             Notice(
                 "low_peclet",
                 f"the Peclet number of surface {side} is {slowest:.2g}, which is below {LOWEST_PECLET:g}. Heat then "
-                "also spreads along the surface, and the computed flash temperature is too high. In tests it was too "
-                "high by 3 % (Ree-Eyring) and 7 % (Newtonian) at a Peclet number of 4.5, by 6 % at 1 and by 19 % at "
-                "0.35",
+                "also spreads along the surface, and the computed flash temperature is too high: by 3 to 7 % at Peclet "
+                "numbers from 1 to 4.5, and by 19 % at 0.35",
                 f"speed_{side}",
             )
         )
