@@ -128,10 +128,8 @@ def test_a_figure_in_a_column_of_a_report_has_no_collisions() -> None:
 
 def test_figures_of_a_report_stand_in_pairs_of_about_the_same_height() -> None:
     wide = Figure("wide", (PANEL, PANEL), beside=True)
-    low, high, next_low, next_high = (
-        Figure(name, (PANEL,) * count) for name, count in zip("abcd", (1, 2, 1, 2), strict=True)
-    )
-    columns = in_columns([wide, low, high, next_low, next_high])
+    others = [Figure(name, (PANEL,) * count) for name, count in (("a", 1), ("b", 2), ("c", 1), ("d", 2))]
+    columns = in_columns([wide, *others])
     assert [figure.finding for figure, _ in columns] == ["a", "c", "b", "d", "wide"]
     assert [figure.narrow for figure, _ in columns] == [True, True, True, True, False]
     assert all(address.startswith("data:image/svg+xml;base64,") for _, address in columns)
