@@ -123,7 +123,10 @@ def chances(limited: Limited) -> Figure:
     """
     limit = limited.found
     if is_tiny(limit):
-        raise NoFigure("tiny", f"the probability is {chance_text(limit)} in every case")
+        raise NoFigure(
+            "tiny",
+            f"in every case, the probability of violating the limit is {chance_text(limit)}",
+        )
     cases = ((case.name, case.chance, Hue.BLUE) for case in limited.cases)
     rows = []
     for name, chance, hue in (*cases, (SPECTRUM, limit, Hue.VERMILLION)):

@@ -51,8 +51,8 @@ def columns_of(figure: Figure) -> list[Column]:
 def _columns(panel: Panel) -> Iterator[tuple[str, Iterable[Item]]]:
     """Yield the headers and the contents of all columns of a panel.
 
-    Lines, bars, polygons and bands have columns for the abscissa and the ordinates. There are also columns for the
-    rows, for the points of a map, and for the limits.
+    Lines, bars, polygons and bands have columns for the abscissa and the ordinates. If the panel shows named rows, a
+    map or limits, there are also columns for these.
     """
     abscissa = _header(panel.x.title, panel.x)
     for line in (*panel.bars, *panel.lines, *panel.shapes):

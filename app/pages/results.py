@@ -143,7 +143,7 @@ def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, dig
 
 
 def _named(leaf: Leaf, items: tuple[str, ...]) -> tuple[str, ...]:
-    """Put a name before each item if the declaration of the field names the items, such as components of a vector."""
+    """Put a name before each item, such as a component of a vector, if names of items are declared for the field."""
     names = (leaf.declared.index or "").split(", ")
     return tuple(map(" ".join, zip(names, items, strict=True))) if len(names) == len(items) > 1 else items
 

@@ -223,9 +223,8 @@ def members(model: type[BaseModel]) -> tuple[Member, ...]:
 def _fillings(model: type[Documented], record: Any) -> tuple[tuple[str, Member, Any], ...]:
     """Return the fields of the dataclass `record` that the section `model` fills.
 
-    Each item has three parts: the name of the field in the dataclass, the member of `model` from which this field is
-    filled, and the dataclass that the type of this field contains. If the type contains no dataclass, the third part is
-    None.
+    Each item has three parts: the name of a field of `record`, the member of `model` from which this field is filled,
+    and the type of this field if the field itself holds a dataclass. Otherwise the third part is None.
     """
     by_solver_name = {
         member.solver_name: member

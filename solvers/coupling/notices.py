@@ -114,7 +114,7 @@ def contact_notices(inputs: CouplingInputs, kinematics: Kinematics, lubrication:
     if lubrication.hertz_half_width > half_face:
         yield Notice(
             "wide_contact",
-            "the contact is wider than the tooth face, even if the contact does not move along the tooth",
+            "the contact between two teeth is wider than the tooth face",
             "face_width",
             rank="invalid",
         )

@@ -284,8 +284,9 @@ def sleeve_equilibrium(
     Eq. C22. Nothing slides if the axial velocity is zero and, in addition, the misalignment or the speed is zero. The
     direction of friction is then undetermined.
 
-    If mu d_o/l_H < cos(pi/z), an equilibrium always exists. Let Phi(g) be the lateral force that the moments of
-    friction require if the lateral force g acts. For every force g that the teeth can hold, the teeth can also hold the
+    If mu d_o/l_H < cos(pi/z), an equilibrium always exists. A lateral force g on the
+    sleeve changes the tooth forces, and with them the moments of friction. Let Phi(g) be the lateral force that
+    balances these moments. For every force g that the teeth can hold, the teeth can also hold the
     force Phi(g). By Brouwer's fixed-point theorem, Phi(g) = g then has a solution.
     """
     coupling, torque = inputs.coupling, inputs.operation.torque

@@ -380,10 +380,11 @@ def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArr
 
     `values_at` takes rotor angles (rows) and returns one value per angle. After the evaluation at the given angles, two
     searches look for larger values near the local maxima. The steps of the first search are eight times finer than the
-    given steps, and the steps of the second search are eight times finer again. Near a local maximum, the largest value
-    is expected to be the local maximum plus half of its rise above the lower of its two neighbours. If this expected
-    value is below the largest value so far, the local maximum is left out. The searches are necessary because each
-    tooth has its own peak, and because a peak lasts only a fraction of a pitch if few teeth are loaded.
+    given steps, and the steps of the second search are eight times finer again. A search leaves out a local maximum
+    near which no new largest value is expected. The rise of a local maximum is its height above the lower one of the
+    two neighbouring values. Half of this rise is expected as the most that a finer search can add. The searches are
+    necessary because each tooth has its own peak, and because a peak lasts only a fraction of a pitch if few teeth are
+    loaded.
     """
     coarse, step = values_at(angles), angles[1] - angles[0]
     places = angles[:, None] + step * np.array([-1.0, 0.0, 1.0])

@@ -102,8 +102,8 @@ class Resolution:
 
     Uncertainties of pressures are relative to the gauge pressure. The resolution is the number of slices in gas
     dynamics, the number of steps in the pocket chain, and the number of positions in the incompressible model. If the
-    area of a space jumps, the jump changes the pressure, and every uncertainty is at least the relative change of the
-    pressure. `temperature_rise` is None if the flow model gives no temperatures. Uncertainties of the net flows are in
+    area of a space jumps, the pressure changes by a relative amount. No uncertainty is then smaller than this amount.
+    `temperature_rise` is None if the flow model gives no temperatures. Uncertainties of the net flows are in
     `MassFlow`.
     """
 

@@ -213,8 +213,9 @@ def _or_along(distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Pe
     """Return `thinnest`, or the thinnest film on the profile line `line` if this film is thinner.
 
     Both films are computed by the formula of Dowson and Higginson. This function is called even if the profile line is
-    not checked, because a spur pair and its mirror image must have the same thinnest film. The two pairs have different
-    feature lines, so that the profile line may be checked for only one of the two pairs.
+    not checked, because a spur pair and its mirror image must have the same thinnest film. The feature line runs
+    across the flank of the mirror image in the other direction. The profile line of one of the two pairs may therefore
+    be hotter than the feature line and be checked, while the profile line of the other pair is not checked.
     """
     if np.isnan(line.film).all():
         return thinnest

@@ -359,8 +359,7 @@ def _pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Mo
     if model.tooth_stiffness == "parabola" and model.contact != "linear":
         raise InvalidInput(
             "contact_law",
-            "the parabolic tooth stiffness requires the contact model 'linear', because its maximum is Ishikawa's "
-            "stiffness with this contact model; choose 'linear'",
+            "the tooth stiffness 'parabola' is only defined for the contact model 'linear'; choose this contact model",
             "contact",
         )
     x = np.linspace(0.0, path.length, TABLE_POINTS)

@@ -251,7 +251,7 @@ def test_a_line_leads_to_the_text_of_a_point_only_where_it_stands_far_from_the_p
 
 
 def test_texts_are_placed_on_the_axes_that_are_drawn() -> None:
-    """The axes keep their limits after the texts are placed, although equal scales widen one of the axes."""
+    """Equal scales widen one of the axes before the texts are placed. Drawing does not change the limits any more."""
     angle = np.linspace(0.0, 2.0 * np.pi, 73)
     circle = Line("path", values(np.cos(angle)), values(np.sin(angle)))
     panel = Panel(x=Axis("x", magnitude=False), y=Axis("y", magnitude=False), lines=(circle,), equal=True)

@@ -65,7 +65,7 @@ def answer_to(endpoint: str, body: str) -> dict[str, Any]:
 
 
 def answers(body: dict[str, Any], path: str, *values: Any, endpoint: str = SCUFFING) -> list[dict[str, Any]]:
-    """Return the answers to a body with each of these values at a path. Recent answers are reused."""
+    """Set each of the values at a path of the body, and return the answers. Recent answers are reused."""
     return [answer_to(endpoint, json.dumps(changed(body, {path: value}), sort_keys=True)) for value in values]
 
 

@@ -278,7 +278,7 @@ def test_two_values_may_have_decimal_commas(client: httpx.Client) -> None:
 def test_only_what_is_refused_is_asked_back() -> None:
     """In a link, the comma in 100,200 separates two values of a list.
 
-    The page does not ask what this text means, although another field is wrong.
+    The page therefore does not ask what this text means, even if it asks to correct another field.
     """
     pairs = [("coupling.pitch_errors_um", "100,200"), (TORQUE, "x")]
     html = html_of(Asked("/coupling", pairs), 422)

@@ -62,7 +62,7 @@ def test_every_function_that_cites_an_equation_is_named_below_it() -> None:
 def test_every_equation_of_ours_is_implemented() -> None:
     """Every equation of our own names a function that implements the equation.
 
-    An equation from a paper needs no function, because the manual may print this equation only to correct it.
+    An equation from a paper needs no function: the manual prints some of these equations only in order to correct them.
     """
     assert [number for number, equation in equations().items() if " " not in number and not equation.functions] == []
 

@@ -1,6 +1,6 @@
 """The model reproduces the figures of Pahl, "The operating characteristics of gear-type couplings".
 
-Expected numbers that the paper does not contain are from an independent calculation of the same statement.
+If the paper states a result without numbers, the expected numbers come from an independent calculation.
 """
 
 from dataclasses import replace

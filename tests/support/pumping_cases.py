@@ -257,8 +257,8 @@ def check_no_jump_of(case: PumpingInputs, name: str) -> None:
     A number may change suddenly if the stroke has one time step more or less, or a land between grooves has one slice
     more or less. Such a change must not exceed the sum of the uncertainties of the results before and after the change.
     The change must also be at most a tenth of the largest value of the number. The radial flow is a small difference of
-    large flows. The flows out of both ends are therefore added to its largest value. If both results have the notice
-    `area_jump`, only the uncertainties count.
+    large flows. Its tenth is therefore taken of the sum of its largest value and the flows out of both ends. If both
+    results have the notice `area_jump`, only the uncertainties count.
     """
     cases = [scanned(case, name, k / (POINTS - 1)) for k in range(POINTS)]
     try:

@@ -136,7 +136,9 @@ def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     rows = [row for row in (*causes, *totals) if row.value != 0.0]
     if not rows:
         raise NoFigure(
-            "no_misalignment", "Neither the shafts nor the heat cause a gap, so there is nothing to draw", "effects"
+            "no_misalignment",
+            "Neither shafts nor heat open a gap between the flanks, so there is nothing to draw",
+            "effects",
         )
     slope = axis(slopes, "total_slope", "slope of the gap over the face", magnitude=False)
     largest = max(causes, key=lambda row: abs(row.value))

@@ -245,7 +245,7 @@ def safety_over_the_band(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     if heat.band is None or heat.band.safety is None:
         raise NoFigure(
             "no_band",
-            "The heat balance has no uncertainty band, so there is only one safety factor and nothing to draw",
+            "The heat balance states no range of safety factors, so there is nothing to draw",
             "cooling.band",
         )
     oil = inputs.temperatures.oil - KELVIN

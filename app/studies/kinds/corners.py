@@ -86,7 +86,7 @@ class Corners(Sweep):
         if not ranges:
             raise Unprocessable(
                 "no_corners",
-                "no input of this unit is uncertain; list the uncertain inputs in the field 'ranges'",
+                "no input of this gear unit is uncertain; list the uncertain inputs in the field 'ranges'",
                 "ranges",
             )
         return grid(ranges, base, min(most, MOST_CORNERS), "ranges")

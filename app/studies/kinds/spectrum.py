@@ -775,7 +775,7 @@ class SpectrumPage(StudyPage):
         return (*controls, *(Control(name, "tolerances.inputs", sets=False) for name in self._given()[:1]))
 
     def _scatter(self, given: dict[str, Any], where: str) -> dict[str, Any]:
-        """Convert what the user typed for a tolerance into the distribution for the body of the study.
+        """Convert what the user typed for a tolerance into the form in which a request states a distribution.
 
         `given` holds the path of the field, the name of the distribution, the mean and the width.
         """

@@ -138,10 +138,10 @@ def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray
 
     The cooling is the lowest bulk or inlet temperature minus the lowest temperature in `t` (n, k). Decompression takes
     up the heat q = 0.00065 T u |dp/dx| h per area. Here T is the largest temperature of the film, u is the speed of the
-    faster surface, and h is the film thickness. `surface_heating` with the flux q gives the amount by which this heat
-    cools the surfaces. Between the surfaces, the film can be colder by a further q h/(8 lambda), where lambda is the
-    thermal conductivity of the oil. The result is the cooling minus these two amounts, or 0 if this difference is
-    negative.
+    faster surface, and h is the film thickness. The surfaces give off this heat and
+    become colder by the amount that `surface_heating` returns for the flux q. Between the surfaces, the film can be
+    colder by a further q h/(8 lambda), where lambda is the thermal conductivity of the oil. The result is the cooling
+    minus these two amounts, or 0 if this difference is negative.
     """
     bulk, contact, oil = inputs.temperatures, inputs.contact, inputs.lubricant
     missing = min(bulk.surface_1, bulk.surface_2, bulk.inlet) - float(t.min())

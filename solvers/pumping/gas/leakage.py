@@ -83,8 +83,9 @@ def implicit_stage(
 
     Notes
     -----
-    Eq. P7. A cell without gaps does work on its walls, and loses the gas that the flanks carry out. For such a cell,
-    `stiffness` [m^2] in the code is the internal energy before the stage divided by the pressure after the stage.
+    Eq. P7. If a cell has no gaps, gas leaves it only with the flanks, which carry the gas out, and the cell does work
+    on its walls. For such a cell, `stiffness` [m^2] in the code is the internal energy before the stage divided by the
+    pressure after the stage.
     """
     g, area = gas.exponent, walls.area
     into, carried = max(-walls.transport, 0.0) * gas.density, max(walls.transport, 0.0) / area

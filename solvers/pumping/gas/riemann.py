@@ -1,6 +1,7 @@
 """States of the gas, and fluxes through the faces of a duct: between two cells (HLLC), and into ambient gas at rest.
 
-Velocities are positive along the face [m/s]; at a face that opens into the ambient, they are positive outwards.
+A velocity [m/s] is positive in the direction of the duct; at an end that opens into the ambient, it is positive
+outwards.
 """
 
 from typing import NamedTuple

@@ -47,8 +47,8 @@ def _close(
 ) -> float:
     """Compute the area [m^2] between the owner's axis and the upper boundary of a side; see `_area_part`.
 
-    `own_radius` [m] and `own_half_angle` [rad] give the foot of the section on the space; `mate_roll` [m] gives the
-    foot of the section on the mate.
+    The side is closed by a line from a point of the owner's profile (`own_radius` [m], `own_half_angle` [rad]) to a
+    point of the mate's profile (`mate_roll` [m]).
     """
     mate_radius = np.hypot(space.mate_base_radius, mate_roll)
     mu = mate_angle - space.mate_base_half_angle + involute(mate_roll, space.mate_base_radius)

@@ -117,7 +117,7 @@ def test_the_face_begins_at_the_end_that_is_ahead(standing: Arrangement) -> None
 def test_growth_by_heat_closes_the_gap_that_the_thermal_lead_says(
     standing: Arrangement, rises: tuple[float, float]
 ) -> None:
-    """Each gear body grows around its axis and around the plane y = 0.
+    """Each gear body expands away from its axis and away from the plane y = 0.
 
     To first order in the growth, thermal lead and profile slope together equal the gap between the flanks, up to a
     constant.

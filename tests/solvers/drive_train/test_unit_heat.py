@@ -56,9 +56,9 @@ def temperatures(result: DriveTrainResult) -> np.ndarray:
 
 
 def test_the_worked_unit_with_its_own_losses_and_loads() -> None:
-    """The unit computes its own losses and loads, while the example of the network has given losses and loads.
+    """The temperatures differ by at most 1.3 K from those of the same network with prescribed losses and loads.
 
-    The temperatures of both differ by at most 1.3 K.
+    The unit computes its losses and loads itself.
     """
     found = solve(TURBO)
     heat = found.heat

@@ -299,6 +299,6 @@ def test_waves_that_stay_with_the_meshing_line_are_not_called_resolved() -> None
 def test_grids_that_agree_by_luck_are_not_taken_at_their_word(case: PumpingInputs) -> None:
     """An estimate from half the slices alone stated 1.09 % for an error of 1.17 %, and 2.7 % for an error of 17 %.
 
-    Some of the cases have two peaks or a jump.
+    In some of the stored cases, the pressure has two peaks or a jump.
     """
     pumping_cases.check_resolution_of(case)

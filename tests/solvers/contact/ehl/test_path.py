@@ -29,7 +29,7 @@ def contacts(points: int = 8, step: float = 0.1) -> list[LineContactInputs]:
 
 
 def test_path_is_what_its_points_are_alone() -> None:
-    """Film thickness and friction along the path agree with those of the contacts alone to within 1 % and 0.5 %."""
+    """Contacts that are solved along a path and one by one have equal films to 1 %, and equal friction to 0.5 %."""
     for alone, along in zip([solve(c) for c in contacts()], solve_path(contacts()), strict=True):
         assert along.status == alone.status
         assert along.film.minimum == pytest.approx(alone.film.minimum, rel=0.01)
@@ -74,9 +74,9 @@ def test_guesses_are_exact_for_polynomials() -> None:
 
 
 def test_guesses_take_only_as_many_states_as_told_the_last() -> None:
-    """The states have a kink. Two states predict the last state exactly, but four states do not.
+    """The next guess continues the line through the last two states.
 
-    The next guess therefore continues the line through the last two states.
+    The earlier states lie on another line. A guess from four states would have missed the last known state.
     """
     assert path._extrapolated(np.array([[0.0], [0.0], [1.0], [2.0], [3.0]])) == pytest.approx(np.array([4.0]))
     assert path._extrapolated(np.array([[7.0]])) == pytest.approx(np.array([7.0]))
@@ -145,7 +145,7 @@ def near_the_pitch_point() -> list[LineContactInputs]:
 
 
 def test_hard_points_are_solved_as_they_are_alone() -> None:
-    """Film thickness and friction agree with those of the contacts alone to within 0.3 %.
+    """Contacts that are solved along a path and one by one have the same film and the same friction to 0.3 %.
 
     In the past, films differed by up to 1.3 %, because the steep fall of pressure lay one node away from its place in
     the contact alone.
