@@ -125,7 +125,7 @@ def chances(limited: Limited) -> Figure:
     if is_tiny(limit):
         raise NoFigure(
             "tiny",
-            f"in every case, the probability of violating the limit is {chance_text(limit)}",
+            f"the probability of violating the limit is {chance_text(limit)} for the whole spectrum",
         )
     cases = ((case.name, case.chance, Hue.BLUE) for case in limited.cases)
     rows = []

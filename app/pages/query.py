@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from typing import Any
 from urllib.parse import parse_qsl, urlencode
 
-from app.errors import Unreadable
+from app.errors import Unreadable, printable
 from app.figures.wording import difference_unit
 from app.pages.study_kinds import control_names
 from app.pages.typed import (
@@ -188,11 +188,13 @@ def body_of(model: type[Documented], pairs: Pairs) -> dict[str, Any]:
         for part in parts[:-1]:
             place = place.setdefault(part, {})
             if not isinstance(place, dict):
-                raise Unreadable("The same name is used for a value and for a section")
+                raise Unreadable(
+                    f"The query contains {printable('.'.join(parts[:-1]))} both as a value and as a section"
+                )
         if isinstance(place.get(parts[-1]), dict) and text == PRESENT:
             continue
         if parts[-1] in place:
-            raise Unreadable("The query contains the same field twice")
+            raise Unreadable(f"The query contains the field {printable('.'.join(parts))} twice")
         place[parts[-1]] = _value(model, name, text)
     content: dict[str, Any] = _with_lists(model, body)
     return content

@@ -89,7 +89,9 @@ def _unpacked(content: bytes, most_bytes: int) -> bytes:
             if len(models) != 1:
                 names = ", ".join(PurePosixPath(entry.filename).name[:40] for entry in models[:5])
                 listed = f": {names}" if names else ""
-                raise not_rexs(f"the archive holds {len(models)} models ({MODELS}); it must hold exactly one{listed}")
+                raise not_rexs(
+                    f"the archive must hold exactly one model ({MODELS}), but it holds {len(models)}{listed}"
+                )
             if models[0].compress_type not in PACKINGS:
                 raise not_rexs("the compression of the archive is not supported; use deflate, the usual method")
             with archive.open(models[0]) as packed:
@@ -215,7 +217,9 @@ def _xml_load_case(element: Any) -> LoadCase:
 def _xml_id(element: Any, attribute: str = "id") -> int:
     text = (element.get(attribute) or "").strip()
     if not re.fullmatch(r"-?\d{1,18}", text):
-        raise not_rexs(f"line {element.sourceline}: <{_tag(element)}> needs a whole number as its id or order")
+        raise not_rexs(
+            f"line {element.sourceline}: the attribute {attribute} of <{_tag(element)}> must be a whole number"
+        )
     return int(text)
 
 

@@ -124,8 +124,8 @@ class Documented(BaseModel):
         if stands and cls._stands and records and not only and not without:
             if (other := _MODELS.get((cls._declares, records[0]), cls)) is not cls:
                 raise TypeError(
-                    f"{other.__name__} and {cls.__name__} are both the model of {records[0].__name__}; "
-                    "declare one of them with stands=False"
+                    f"{other.__name__} and {cls.__name__} both describe {records[0].__name__}; only one of them may be "
+                    "the standard model, so declare the other with stands=False"
                 )
             _MODELS[cls._declares, records[0]] = cls
 

@@ -314,7 +314,7 @@ class ContactTemperatures(Section, of=si.Temperatures):
             )
             raise PydanticCustomError(
                 "exclusive",
-                "bulk_c is given, but bulk_method asks for {method}; leave out bulk_c or bulk_method",
+                "bulk_c gives the bulk temperature, but bulk_method selects {method}; leave out one of the two",
                 {"method": method},
             )
         if self.bulk_method == "heat_balance" and self.oil_supply != "spray":

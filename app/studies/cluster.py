@@ -84,7 +84,7 @@ class DaskCluster:
         new = set(threads) - self._prepared
         for worker, theirs in self._call_on(versions, new).items():
             if theirs != versions():
-                raise ValueError(f"its worker {worker} runs {theirs}, but the service runs {versions()}")
+                raise ValueError(f"its worker {worker} has other versions {theirs} than the service {versions()}")
         self._call_on(prepare, new)
         self._prepared |= new
         self.slots = sum(threads.values())
@@ -141,8 +141,7 @@ def solved_with(sources: str, function: Callable[..., Any], *arguments: Any) -> 
     """
     if sources != SOURCES:
         raise OtherSources(
-            f"a Dask worker has version {SOURCES} of the solvers' sources, but the service has version {sources}; "
-            "update the worker"
+            f"a Dask worker has other solvers (hash {SOURCES}) than the service (hash {sources}); update the worker"
         )
     return function(*arguments)
 

@@ -173,12 +173,12 @@ def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: st
         message = not_a_number(leaf)
         if message is not None:
             raise Unprocessable(
-                "not_continuous", f"{message}; vary this field along an axis, or list the cases", f"{here}.path"
+                "not_continuous", f"{message}, so it cannot be drawn at random; list its values instead", f"{here}.path"
             )
         if leaf.kind == "integer":
             raise Unprocessable(
                 "not_integer",
-                f"{scatter.path} accepts only whole numbers; vary this field along an axis, or list the cases",
+                f"{scatter.path} is a whole number, so it cannot be drawn at random; list its values instead",
                 here,
             )
         for name, value in anchors(scatter).items():

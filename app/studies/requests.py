@@ -76,7 +76,9 @@ class Part(BaseModel):
         if self.exactly_one and sum(getattr(self, name) is not None for name in self.exactly_one) != 1:
             *names, last = self.exactly_one
             known = ", ".join(names)
-            raise PydanticCustomError(f"{'_'.join(names)}_or_{last}", f"Give exactly one of {known} and {last}")
+            raise PydanticCustomError(
+                f"{'_'.join(names)}_or_{last}", f"Give exactly one of these fields: {known}, {last}"
+            )
         return self
 
 

@@ -35,7 +35,7 @@ class StartUp:
         needed = {BY_PATH[endpoint].stage.name for endpoint in endpoints} or {*self._percent}
         if not needed <= {*self.warm}:
             report = ", ".join(f"{name} {percent} %" for name, percent in self._percent.items())
-            raise WarmingUp(f"Kernels are being compiled, once after installation: {report}")
+            raise WarmingUp(f"The solvers are being compiled, which happens once after installation: {report}")
 
     async def run(self) -> None:
         """Compile all stages, then open all endpoints. If a process fails, compile once more in an empty folder.

@@ -482,6 +482,6 @@ def check_contact(film: FilmState, geometry: Geometry) -> None:
     if film.contact_half_width > MAX_CONTACT_WIDTH * geometry.normal_flank_radius:
         raise InvalidInput(
             "contact_width",
-            "the contact is wider than a tenth of the flank radius; raise the crowning ratio",
+            "half the width of the contact exceeds a tenth of the normal flank radius; raise the crowning ratio",
             "crowning_ratio",
         )

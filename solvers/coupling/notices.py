@@ -36,7 +36,7 @@ def motion_notices(
     if operation.speed == 0.0:
         yield Notice(
             "not_turning",
-            "the coupling does not turn; there is no permissible misalignment and no oil film",
+            "the coupling does not turn; there is no oil film, and no permissible misalignment is stated",
             "speed",
             rank="note",
         )
@@ -90,8 +90,7 @@ def load_notices(
     elif thrust.coaxial_limit == 0.0:
         yield Notice(
             "no_friction",
-            "without friction the limit of the thrust is zero; the thrust can therefore not be stated as a share of "
-            "this limit",
+            "without friction the limit of the thrust is zero, so the ratio of the thrust to this limit is not defined",
             "coefficient",
             rank="note",
         )

@@ -337,7 +337,7 @@ def _tooth_forces(
     if residual >= FORCE_TOLERANCE:
         raise NoSolution(
             "sleeve_equilibrium",
-            "the tooth forces cannot balance the overturning moment of the friction on the sleeve; increase the hub "
+            "friction tilts the sleeve, and the tooth forces cannot balance the tilting moment; increase the hub "
             "distance or reduce the friction",
             {"lateral_force": min(residual, 1.0)},
         )

@@ -92,7 +92,7 @@ def no_convergence(failed: int) -> Notice:
     """Return the warning about corners without a solution."""
     return Notice(
         "no_convergence_of_corner",
-        f"{failed} corners of the uncertain inputs have no solution; the stated extreme values are those of the other "
-        "corners",
+        f"{failed} combinations of the uncertain inputs (corners) have no solution; the extreme values are those of "
+        "the other combinations",
         "ranges",
     )

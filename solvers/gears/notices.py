@@ -38,8 +38,8 @@ def pair_notices(path: PathOfContact) -> list[Notice]:
     notices += [
         Notice(
             "path_shortened",
-            f"the tip of the mating gear reaches below the usable involute of the {name}; the path of contact starts "
-            "at the lower end of this involute",
+            f"the tip of the mating gear reaches below the usable involute of the {name}; the path of contact is cut "
+            "off at the lower end of this involute",
             f"{name}.dedendum",
             rank="note",
         )

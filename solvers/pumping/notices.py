@@ -137,7 +137,7 @@ def resolution_notices(flow: Flow, uncertain: Resolution) -> list[Notice]:
     return [
         Notice(
             "not_resolved",
-            f"with this number of slices these results are uncertain: {shares}. Use more slices",
+            f"too few slices; the following results are uncertain: {shares}. Use more slices",
             "slices",
         )
     ]

@@ -44,8 +44,8 @@ def geometry_notices(path: PathOfContact, lengths: ContactLengths) -> list[Notic
         notices.append(
             Notice(
                 "uneven_contact_length",
-                f"at some roll positions the total length of the contact lines is only {lengths.ratio:.2f} times its "
-                "maximum (limit: 0.2); the line loads are highest at these positions",
+                f"the least total length of the contact lines is only {lengths.ratio:.2f} times the largest, and should "
+                "be at least 0.2 times; the line loads are highest where the total length is least",
                 "face_width",
             )
         )
@@ -148,8 +148,8 @@ def load_notices(balance: LoadBalance) -> list[Notice]:
         notices.append(
             Notice(
                 "half_space",
-                "at some points the contact is wider than half the thickness of the tooth behind the contact; beyond "
-                "this width the compliance of the contact is kept constant",
+                "at some points the contact is wider than half the thickness of the tooth at these points. The contact "
+                "model does not hold there, and the compliance is that of a contact as wide as half the thickness",
                 "pinion_torque",
             )
         )

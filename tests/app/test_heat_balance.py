@@ -245,7 +245,11 @@ def test_without_load_the_oil_alone_warms_the_flanks() -> None:
     ("changes", "pointer", "words"),
     [
         ({"temperatures.bulk_method": "heat_balance", "temperatures.oil_supply": "dip"}, "/temperatures", "estimated"),
-        ({"temperatures.bulk_method": "heat_balance", "temperatures.bulk_c": 80}, "/temperatures", "leave out bulk_c"),
+        (
+            {"temperatures.bulk_method": "heat_balance", "temperatures.bulk_c": 80},
+            "/temperatures",
+            "leave out one of the two",
+        ),
         ({"cooling.measured": {"wheel_flank_c": 80, "wheel_body_c": 75}}, "/cooling/measured", "keep one"),
         ({"cooling.wetting_share": 0.01}, "/cooling/wetting_share", "0.02 to 1"),
         ({"cooling.gear_flow": 100}, "/cooling/gear_flow", "gear_flow_l_per_min"),

@@ -322,7 +322,7 @@ def test_a_section_names_declared_fields_only() -> None:
 
 
 def test_one_model_stands_for_a_dataclass_whatever_the_order() -> None:
-    with pytest.raises(TypeError, match="InnerGroup and Twin are both the model of Inner"):
+    with pytest.raises(TypeError, match="InnerGroup and Twin both describe Inner"):
 
         class Twin(Group, of=Inner):
             """A second group for `Inner`, which is rejected."""

@@ -224,7 +224,10 @@ def test_from_a_data_sheet_to_a_safety_factor_in_one_request() -> None:
         (
             "/v1/scuffing",
             {"temperatures": {"bulk_method": "estimated", "bulk_c": 90}},
-            "bulk_c is given, but bulk_method asks for an estimated bulk temperature; leave out bulk_c or bulk_method",
+            (
+                "bulk_c gives the bulk temperature, but bulk_method selects an estimated bulk temperature; "
+                "leave out one of the two"
+            ),
         ),
         (
             "/v1/scuffing",

@@ -257,7 +257,7 @@ def test_what_is_wrong_stands_at_its_control(client: httpx.Client, said: dict[st
 def test_names_that_contradict_each_other_are_a_fault_on_the_page(client: httpx.Client) -> None:
     page = client.get("/coupling/spectrum?a.b=3&a=x&cases=name")
     assert page.status_code == 400
-    assert "<li>The query contains the same field twice</li>" in page.text
+    assert "<li>The query contains the field a twice</li>" in page.text
     assert '<form id="study"' in page.text
 
 

@@ -74,8 +74,7 @@ def _check_motion(inputs: LineContactInputs) -> None:
     if contact.entrainment_speed < LOWEST_SPEED:
         raise InvalidInput(
             "no_entrainment",
-            f"the mean surface speed must be at least {LOWEST_SPEED:g} m/s, because this speed draws the oil into the "
-            "contact",
+            f"the mean surface speed draws the oil into the contact; it must be at least {LOWEST_SPEED:g} m/s",
             "speed_1",
         )
     if inputs.model.thermal and min(contact.speed_1, contact.speed_2) <= 0.0:

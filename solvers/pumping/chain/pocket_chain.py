@@ -59,7 +59,7 @@ def _march(gas: Gas, stretch: Stretch, duct: Duct, angle: FloatArray, closure: C
             return March(stretch, record, taken)
     raise NoSolution(
         "newton_not_converged",
-        "a time step of the pocket chain did not converge; try a higher speed, fewer slices or gas dynamics",
+        "a time step of the pocket chain did not converge; try a higher speed, fewer slices or flow model gas_dynamics",
         {"content_error": error},
     )
 
