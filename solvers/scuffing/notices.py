@@ -44,7 +44,7 @@ def geometry_notices(path: PathOfContact, lengths: ContactLengths) -> list[Notic
         notices.append(
             Notice(
                 "uneven_contact_length",
-                f"the least total length of the contact lines is only {lengths.ratio:.2f} times the largest, and should "
+                f"the least total length of contact lines is only {lengths.ratio:.2f} times the largest, and should "
                 "be at least 0.2 times; the line loads are highest where the total length is least",
                 "face_width",
             )

@@ -148,7 +148,7 @@ def test_a_third_study_waits_outside(address: str) -> None:
 
 def test_a_full_queue_refuses_a_study_before_its_first_line(address: str) -> None:
     with ThreadPoolExecutor(4) as pool:
-        busy = [pool.submit(httpx.post, f"{address}/sleep/3", timeout=20) for _ in range(4)]
+        busy = [pool.submit(httpx.post, f"{address}/sleep/5", timeout=20) for _ in range(4)]
         wait_for_metric(address, "tribodrive_calculations_waiting", 2)
         refused = httpx.post(address + SWEEP, json=loads(2))
         assert refused.status_code == 503
