@@ -102,7 +102,7 @@ class _Endpoints(ABC, Generic[Answer, Stream]):
 
     @abstractmethod
     def study(self, endpoint: str, request: Json, *, progress: bool = False) -> Stream:
-        """Open a study. The study runs while its lines are read.
+        """Open a study. The study starts when its results are read.
 
         Parameters
         ----------
@@ -194,7 +194,10 @@ class _Study(Generic[Http]):
         self._bar: Any = None
 
     def _begin(self) -> float:
-        """Prepare a run of the study. Return the time [s] until which the client waits for a busy service."""
+        """Reset the study before a new run.
+
+        Return the clock time [s] until which the client waits for a busy service.
+        """
         self.header, self.end = {}, {}
         if self._progress:
             from tqdm.auto import tqdm  # noqa: PLC0415  only progress bars need it
@@ -203,7 +206,7 @@ class _Study(Generic[Http]):
         return time.monotonic() + self._patience_s
 
     def _results(self, text: str) -> Iterator[Json]:
-        """Process a line of the study, and yield the line if it is a result.
+        """Process one line of a study's answer, and yield its content if the line is a result.
 
         Raises `StudyError` if the line reports an error, or if the line does not belong to a study.
         """
@@ -377,7 +380,7 @@ class Tribodrive(_Endpoints[Json, Study]):
             time.sleep(_wait_s(response, give_up))
 
     def study(self, endpoint: str, request: Json, *, progress: bool = False) -> Study:
-        """Open a study. The study runs while its lines are read."""
+        """Open a study. The study starts when its results are read."""
         return Study(self._http, endpoint, request, self._patience_s, progress=progress)
 
     def example(self, name: str) -> Json:
@@ -423,7 +426,7 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
             await asyncio.sleep(_wait_s(response, give_up))
 
     def study(self, endpoint: str, request: Json, *, progress: bool = False) -> AsyncStudy:
-        """Open a study. The study runs while its lines are read."""
+        """Open a study. The study starts when its results are read."""
         return AsyncStudy(self._http, endpoint, request, self._patience_s, progress=progress)
 
     async def example(self, name: str) -> Json:
@@ -444,7 +447,7 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
 
 @contextmanager
 def _whole() -> Iterator[None]:
-    """Raise StudyError if the connection breaks off while lines are read."""
+    """Raise StudyError if the connection breaks off before the study has ended."""
     try:
         yield
     except httpx.RequestError as error:
@@ -472,9 +475,10 @@ def _request_of(example: httpx.Response) -> Json:
 
 
 def _wait_s(response: httpx.Response, give_up: float) -> float:
-    """Return the time [s] to wait before the client asks a busy service again.
+    """Return the time [s] to wait before the client repeats a request that a busy service refused.
 
-    Raises `ProblemError` if the answer has no `Retry-After`, or if the wait would end after the time `give_up` [s].
+    Raises `ProblemError` if the answer has no `Retry-After`. Also raises `ProblemError` if the wait would end after
+    `give_up`, a reading of the monotonic clock [s].
     """
     stated = response.headers.get("Retry-After", "")
     seconds = max(float(stated), LEAST_WAIT_S) if stated.isdecimal() else inf

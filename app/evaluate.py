@@ -61,7 +61,7 @@ def content_of(body: bytes) -> Any:
 
 
 def refuse_endless(calculation: Calculation, request: Request, deadline_s: float) -> None:
-    """Raise Unprocessable for a request whose estimated time is longer than the deadline."""
+    """Raise Unprocessable if the estimated time of a request is longer than the deadline."""
     if calculation.cost is not None:
         cost = calculation.cost(request)
         if cost.seconds > deadline_s:
@@ -128,10 +128,7 @@ def figure_of(name: str, image_format: figures.Format, theme: ThemeName, path: s
 
 
 def warm(stage: Stage) -> None:
-    """Compile or load all kernels of a stage in this process, by answering the examples of the stage.
-
-    If there is a folder for kernels, the compiled kernels are stored there.
-    """
+    """Compile the kernels of a stage in this process, or load them, by solving the examples of the stage."""
     for name in stage.examples:
         example = examples()[name]
         answer_of(example.endpoint, BY_PATH[example.endpoint].request.model_validate(example.request))
@@ -189,7 +186,7 @@ def solve(calculation: Calculation, request: Request) -> Any:
 
 
 def response_to(calculation: Calculation, request: Request, result: Any) -> Response:
-    """Return the response for a solver's result, or for a NoSolution that the solver raised.
+    """Return the response for a solver's result, or for the exception NoSolution that the solver raised.
 
     Raises a validation error if a number in the result is not finite.
     """
@@ -224,10 +221,9 @@ def response_to(calculation: Calculation, request: Request, result: Any) -> Resp
 
 
 def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
-    """Return the SHA-256 of a case as hexadecimal digits.
+    """Return the SHA-256 hash of endpoint, inputs and the hash `sources` of the solvers' code, as hexadecimal digits.
 
-    A case consists of the endpoint, the inputs and the hash of the solvers' sources. The hashed text is the case as
-    JSON in UTF-8, with sorted keys, without blanks, and with floats in their shortest form.
+    The hashed text is JSON in UTF-8, with sorted keys, without blanks, and with floats in their shortest form.
     """
     content = {"endpoint": endpoint, "inputs": inputs, "sources": sources}
     return sha256(_CANONICAL.encode(content).encode()).hexdigest()
@@ -236,13 +232,10 @@ def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
 def _assumptions(
     section: Section, derived: dict[str, Any], prefix: str = "", unused: frozenset[str] = frozenset()
 ) -> Iterator[dict[str, Any]]:
-    """Yield a dictionary for each assumed default on which the result depends.
+    """Yield the field, the value and the reason of each default that is our own choice and affects the result.
 
-    The dictionary holds the field, the value used and the reason for the assumption.
-
-    `derived` holds the values that the calculation used. The keys are the names of the fields. Groups and lists in
-    `derived` are named like the sections of the request. `unused` holds the dotted names of the fields that the
-    sections around `section` mark as unused.
+    `derived` holds the values that the calculation used, by the names of the fields. `prefix` is put before the names
+    of the fields of `section`. `unused` holds the dotted names of fields without effect on the result.
     """
     unused |= {prefix + name for name, left_out in section.unused().items() if left_out}
     for member in members(type(section)):

@@ -7,11 +7,10 @@ from solvers.digest import package_digest
 
 
 def changes_since(sources: str) -> list[str]:
-    """Return the newest entries of the changelog if the solvers have changed since a calculation.
+    """Return the newest entries of the changelog if the solvers have changed since a calculation; else an empty list.
 
-    `sources` is the hash of the solvers' sources at the time of the calculation, or the beginning of this hash. If the
-    present sources have the same hash, the list is empty. If `sources` is empty because the hash is not known, the list
-    is empty, too.
+    `sources` is the hash of the solvers' sources at the time of the calculation, or the beginning of this hash. If
+    `sources` is empty, the hash is not known, and the list is empty.
     """
     return [] if SOURCES.startswith(sources) else recent_changes()
 

@@ -15,9 +15,9 @@ Fields = list[tuple[str, Any]]
 """Names and types of the fields of a record."""
 
 ROUNDING = 1e-12
-"""If a sum is smaller than this share of the sum of the absolute values of its summands, the sum counts as zero.
+"""A sum counts as zero if it is smaller than this fraction of the sum of the absolute values of its summands.
 
-The share is far above rounding errors, and far below any share that can be measured.
+The fraction is far above rounding errors, and far below any measurable effect.
 """
 
 

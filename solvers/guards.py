@@ -53,7 +53,7 @@ def guarded(
 
 
 def checked(inputs: T, prefix: str = "") -> T:
-    """Return the dataclass `inputs` if every declared number in `inputs` is inside its range.
+    """Return `inputs` if every declared number in this dataclass is inside its range.
 
     Otherwise raise `InvalidInput` with the code `out_of_range` and the dotted name of the first wrong field. This check
     is for inputs that are built in Python; the service checks requests when they arrive.
@@ -72,8 +72,6 @@ def checked(inputs: T, prefix: str = "") -> T:
 
 
 class _Ends(NamedTuple):
-    """The least and the greatest permissible value in SI, and the declaration that states both values."""
-
     least: float
     greatest: float
     declared: Quantity

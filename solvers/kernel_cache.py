@@ -1,9 +1,8 @@
 """The folder in which numba keeps the machine code of compiled kernels.
 
-Numba reuses the machine code of a kernel if the source file of this kernel has not changed. But a kernel may call
-kernels in other files. Numba does not notice an edit of such a file, and would run outdated machine code. The name of
-the folder is therefore a hash of all sources of the solvers and of numba's version, so that numba uses a new folder
-after every edit. This module must be imported before the first kernel is decorated.
+If a kernel calls a kernel in another file and this other file is edited, numba does not notice the edit and runs
+outdated machine code. The name of the folder is therefore a hash of all sources of the solvers and of numba's
+version: after every edit, numba uses a new folder. This module must be imported before the first kernel is decorated.
 """
 
 import logging
@@ -25,11 +24,10 @@ logger = logging.getLogger(__name__)
 
 
 def _writable(folder: Path) -> Path | None:
-    """Create the folder if necessary, and return its path; return None if the folder cannot be used.
+    """Create the folder if necessary, and delete old folders beside it. Return the path of the folder.
 
-    If files cannot be written to the folder, or if the disk is nearly full, the function logs a warning and returns
-    None. Otherwise the function tidies the parent folder, which holds one folder for each version of the solvers and of
-    numba: the `KEPT_FOLDERS` folders that were used last remain, and all older folders are deleted.
+    The `KEPT_FOLDERS` folders that were used last remain. If the folder is not writable, or if the disk is nearly full,
+    log a warning and return None.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -163,7 +163,7 @@ class OilInUse:
 
 
 def oil_in_use(lubricant: Lubricant) -> dict[str, Any]:
-    """Return the values for the fields of `OilInUse`; a key is the name of a field."""
+    """Return the properties of the lubricant under the names of the fields of `OilInUse`."""
     return {item.name: getattr(lubricant, item.name) for item in fields(OilInUse)}
 
 

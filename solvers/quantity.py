@@ -202,7 +202,7 @@ def quantity(
 
 
 def described(text: str, **options: Any) -> Any:
-    """Return a dataclass field without a `Quantity`; `text` describes the field in the docstring of the dataclass."""
+    """Return a dataclass field without a `Quantity`; `text` becomes its entry in the docstring of the dataclass."""
     return field(metadata={_TEXT: text}, **options)
 
 
@@ -276,9 +276,9 @@ def allowed(declared: Quantity) -> str:
 
 
 def advice(declared: Quantity, value: Any) -> str:
-    """Return the advice on what to enter instead of `value`, which is not a number or is outside the range.
+    """Return the advice on what to enter instead of a value that is not a number or is outside the range.
 
-    `value` is in the shown unit. If the declaration contains no such advice, the result is empty.
+    `value` is in the shown unit. The result is empty if there is no such advice.
     """
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     if is_number and value < 0:
@@ -350,7 +350,10 @@ def to_dict(data: Any) -> dict[str, Any]:
 
 
 def _named(data: Any, outer: Quantity | None) -> dict[str, Any]:
-    """Return the declared values under their names; values without a unit of their own take the unit of `outer`."""
+    """Return the declared values under their names in the API.
+
+    Inner values that declare no unit take the unit of `outer`, the declaration of the field that contains `data`.
+    """
     kind: Any = type(data)
     named = {}
     for name, declared in quantities(kind).items():
@@ -362,7 +365,7 @@ def _named(data: Any, outer: Quantity | None) -> dict[str, Any]:
 
 
 def _shown(declared: Quantity, value: Any) -> Any:
-    """Return a number or an array in the shown unit, in a form that JSON can hold."""
+    """Convert a number or an array into the shown unit, and into a form that JSON can hold."""
     return None if isinstance(value, float) and np.isnan(value) else as_json(declared.from_si(value))
 
 
@@ -422,7 +425,7 @@ def _entry(kind: Any, name: str, declared: Quantity | None) -> str:
 
 
 def _summary(data: Any) -> str:
-    """Return one line that shows numbers with units, lists by length, arrays by shape, and dataclasses by class."""
+    """Return one line with the values of a dataclass, as its `repr` shows them."""
     kind: Any = type(data)
     declared = quantities(kind)
     parts = []

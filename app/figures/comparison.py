@@ -35,7 +35,7 @@ def _key(panel: Panel) -> tuple[str, str | None]:
 
 
 def _overlaid(panel: Panel, other: Panel, name: str) -> Panel:
-    """Return `panel` with further parts: the parts of `other` that differ from the parts of `panel`.
+    """Return `panel` with those parts of `other` added that differ from the parts of `panel`.
 
     Parts are curves, edges of filled shapes, bars, rows and limits. Marks are added only if the panel has areas.
     """

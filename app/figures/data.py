@@ -93,9 +93,9 @@ class Mark:
 class Line:
     """Points over an abscissa, drawn as a curve, as bars or as the outline of a polygon.
 
-    A line that is not `named` is left out of the legend, because the title of the ordinate already names the line. If
-    several polygons have the same title, the legend lists this title once. Curves of results that have the same hue are
-    told apart by `stroke`, the number of their pattern of dashes; 0 is a solid curve.
+    The legend shows only lines that are `named`. If several polygons have the same title, the legend shows this title
+    once. `stroke` is the number of a pattern of dashes; 0 is a solid curve. Different patterns distinguish curves of
+    the same hue.
     """
 
     title: str
@@ -127,8 +127,8 @@ class Row:
     """A named value, drawn as a horizontal bar.
 
     If the row has `parts`, the bar consists of these parts, end to end. If the row has `dots`, a line with named points
-    replaces the bar. `bounds` are the ends of the range of an uncertain value. If the value is NaN, "not calculated" is
-    written instead of a number.
+    is drawn instead of the bar. `bounds` are the ends of the range of an uncertain value. If the value is NaN, the text
+    "not calculated" is written.
     """
 
     name: str
@@ -169,8 +169,9 @@ class Level:
 class Map:
     """Values over two coordinates, indexed `[y][x]`, with contours at the `critical` values.
 
-    Maps of a comparison have the same `range` of colours. Only the last of these maps has `bar` set and shows the
-    colour bar. If `range` is None, the range follows from the values.
+    `range` gives the values at both ends of the scale of colours; if it is None, the ends follow from the values of the
+    map. `bar` states whether the map has a colour bar. If a figure compares several maps, these maps have the same
+    `range`, and only the last one has a colour bar.
     """
 
     title: str

@@ -40,7 +40,8 @@ class Declaration:
     def is_asked(self, request: Request) -> bool:
         """Return True if the request has the section or value that the figure needs.
 
-        If `asked_value` is given, the value in the request must also be equal to `asked_value`.
+        If `asked_value` is given, the value in the request must also be equal to `asked_value`. If `asked_by` is empty,
+        the result is True.
         """
         if not self.asked_by:
             return True

@@ -21,11 +21,11 @@ LEAST = 1e-5  # smaller probabilities are not stated, because the tails of the d
 
 
 class SpectrumCase(NamedTuple):
-    """A case of the spectrum.
+    """A case of a load spectrum, with the results for an output that has a limit.
 
-    `quantiles` holds the quantiles of the limited output at 5, 50 and 95 %. `quantiles` is None if no draw is solved.
-    `chance` is the probability of violating the limit if this case were the only case of the spectrum. `decides` is the
-    share of machines for which this case is the worst case.
+    `quantiles` holds the quantiles of the output at 5, 50 and 95 %. `quantiles` is None if no random draw has a
+    solution. `chance` is the probability of violating the limit if this case were the only case of the spectrum.
+    `decides` is the fraction of the machines for which this case is the worst case.
     """
 
     name: str
@@ -35,13 +35,12 @@ class SpectrumCase(NamedTuple):
 
 
 class Limited(NamedTuple):
-    """An output that has a limit, in all cases of the spectrum.
+    """An output that has a limit, in all cases of a load spectrum.
 
-    `found` is the study's result for the limit. Its entries are the side of the limit that counts as a violation
-    ("above" or "below"), the mean and the standard deviation of the limit, the probability of violating the limit, and
-    the histogram of the output in the worst case. The histogram is empty if this output does not vary. `influences`
-    holds the rank correlation of every scattering field with the output in the worst case. The keys of `influences` are
-    the titles of the fields.
+    `found` is what the study states about the limit: the mean and the standard deviation of the limit, the side that
+    is a violation ("above" or "below"), the probability of a violation, and the histogram of the output in the worst
+    case. The histogram is empty if this output does not vary. `influences` maps the title of each scattering input to
+    its rank correlation with the output in the worst case.
     """
 
     output: Axis
@@ -138,10 +137,10 @@ def chances(limited: Limited) -> Figure:
 
 
 def deciding(limited: Limited) -> Figure:
-    """Draw, for each case, the share of machines for which this case is the worst.
+    """Draw which cases and which tolerances decide whether a machine violates the limit.
 
-    Also draw the rank correlation of tolerances with the output in the worst case. At most `NAMED` tolerances are
-    drawn, namely those with the strongest correlation.
+    The first panel shows, for each case, the percentage of machines for which this case is the worst case. The second
+    panel shows the strongest rank correlations, at most `NAMED`, of tolerances with the output in the worst case.
     """
     rows = [Row(case.name, 100.0 * case.decides) for case in limited.cases if case.decides is not None]
     if not rows:

@@ -39,8 +39,8 @@ STAR = f"{NO_BREAK}*"
 class Coordinate:
     """A varied field and its values. The values are either words, or numbers in rising order.
 
-    `own` is the value of the field in the case itself. `scatters` is True if manufacture or measurement determines the
-    value of the field only within a tolerance. A design then has to tolerate all values of the field.
+    `own` is the value of the field in the case itself. If `scatters` is True, the field has a tolerance, and the design
+    has to tolerate all of the values.
     """
 
     axis: Axis
@@ -50,7 +50,7 @@ class Coordinate:
     scatters: bool = False
 
     def named(self, index: int) -> str:
-        """Return the value with this index as text."""
+        """Return the value with the given index as text."""
         return self.words[index] if self.words else number(float(self.values[index]), self.axis.unit)
 
 
@@ -58,10 +58,12 @@ class Coordinate:
 class Grid:
     """Values of an output over one field, `[x]`, or over two fields, `[x][y]`.
 
-    NaN stands for a point that has no value, or that is not calculated yet. If `greatest` is set, greater values are
-    better. `limit` is the limit of the output. If only one field is varied, `invalid` and `doubtful` have an item for
-    each value of this field. An item of `invalid` is the reason why the output is not valid at this value, or None if
-    the output is valid. An item of `doubtful` is True if this value leads beyond a limit of validity.
+    NaN stands for a point that has no value, or that is not calculated yet. If `greatest` is True, greater values are
+    better. `limit` is the limit of the output.
+
+    `invalid` and `doubtful` are used only if one field is varied. Both then have an item for each value of this field.
+    An item of `invalid` is the reason why the output is not valid, or None if the output is valid. An item of
+    `doubtful` is True if the calculation leaves a limit of validity.
     """
 
     x: Coordinate
@@ -149,10 +151,10 @@ def chart(grid: Grid, y: Coordinate) -> Figure:
 
 
 def worst(grid: Grid, y: Coordinate) -> Figure:
-    """Draw the worst output over the second field.
+    """Draw the worst output at each value of the second field.
 
-    The worst output at a value of the second field is the worst of the outputs at all values of the first field. The
-    worst output is unknown if one of these outputs is unknown.
+    The worst output is taken over all values of the first field. If one of these outputs is unknown, the worst output
+    is unknown, too.
     """
     x, finding = grid.x, ""
     reached = grid.values.min(axis=0) if grid.greatest else grid.values.max(axis=0)
@@ -174,7 +176,7 @@ def _figure(grid: Grid, title: str, panel: Panel, finding: str) -> Figure:
 
 
 def _finding(grid: Grid) -> str:
-    """Return the best value and its place as text."""
+    """Return the best value of the output, and the values of the varied fields at this point, as text."""
     if grid.best is None:
         return ""
     fields = [grid.x] if grid.y is None else [grid.x, grid.y]
@@ -209,10 +211,10 @@ class Crossing(NamedTuple):
 
 
 def _crossings(grid: Grid) -> list[Crossing]:
-    """Return the crossings of a curve and its limit, interpolated linearly between points.
+    """Return the points at which a curve crosses its limit, interpolated linearly between the points of the curve.
 
-    The error of a crossing is the error of linear interpolation, estimated with the second divided difference of three
-    points. If there are only two points, the error is the distance between these points.
+    The error of this interpolation is estimated with the second divided difference of three points of the curve. If the
+    curve has only two points, the error is the distance between these points.
     """
     if grid.limit is None or grid.x.words:
         return []
@@ -281,9 +283,10 @@ class Influence(NamedTuple):
 
 
 def influence(output: Axis, value: float, influences: list[Influence]) -> Figure:
-    """Draw the changes as horizontal bars, the most influential input first.
+    """Draw a bar for the influence of each input, the most influential input first.
 
-    The hue of a bar shows the sign of its change, and a star marks a kink.
+    The hue of a bar shows whether the output rises or falls. A star marks an input if the output has a kink at the
+    present value of this input.
     """
     moving = [item for item in influences if item.change][:MOST_ROWS]
     title = f"What moves the {output.title} most"
@@ -302,9 +305,9 @@ def influence(output: Axis, value: float, influences: list[Influence]) -> Figure
 def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
     """Draw a row for each uncertain input, with a dot for each value of the input.
 
-    A value of an input occurs at several corners. The dot for this value shows the worst output of these corners. The
-    worst output of all corners is the `value` of every row, and a red dot marks this output in every row. `nominal`
-    is the output of the case as described.
+    A corner is a combination of values of all uncertain inputs. The dot for a value of an input shows the worst output
+    over all corners with this value. In every row, a red dot marks the worst output over all corners, which is also the
+    `value` of the row. `nominal` is the output of the case as described.
     """
     levels = []
     if nominal is not None:
@@ -345,9 +348,9 @@ def lead_chart(
 
 
 def search(output: Axis, objectives: Sequence[float | None], *, greatest: bool) -> Figure:
-    """Draw the objective at the worst corner for each of the tried corrections.
+    """Draw the output at the worst corner for each of the corrections that a search has tried.
 
-    None stands for a correction without a solution.
+    An objective is None if the correction has no solution.
     """
     reached = values(objectives)
     so_far = np.fmax.accumulate(reached) if greatest else np.fmin.accumulate(reached)

@@ -93,5 +93,4 @@ def _row_columns(panel: Panel) -> Iterator[tuple[str, Iterable[Item]]]:
 
 
 def _header(title: str, axis: Axis) -> str:
-    """Return a title, followed by the unit of the axis in square brackets."""
     return f"{title} [{axis.unit or '-'}]"

@@ -16,9 +16,8 @@ MM, UM, RPM = (UNITS[name].scale for name in ("mm", "um", "rpm"))
 def shown(data: T) -> T:
     """Return a copy of a solver's dataclass with all quantities in the units in which they are shown.
 
-    Dataclasses inside the dataclass are copied in the same way. Computed values that have a declaration are converted
-    as well. Other methods of the copy must not be used, because they would compute from values that are not in SI.
-    Undeclared values and None are copied unchanged.
+    Inner dataclasses and declared computed values are converted too. Undeclared values are copied unchanged. Do not
+    call other methods of the copy: these methods expect SI units.
     """
     copy: T = _converted(data, None)
     return copy
@@ -41,10 +40,9 @@ def axis_of(leaf: Leaf, **options: Any) -> Axis:
 
 
 def _converted(value: Any, declared: Quantity | None) -> Any:
-    """Return a value converted from SI into its declared unit.
+    """Convert a value from SI into the unit that its field declares.
 
-    `declared` is the declaration of the field that holds the value. If the value is a dataclass, this declaration also
-    applies to the inner fields that declare no unit.
+    If the value is a dataclass, this unit also applies to those of its fields that declare no unit.
     """
     number = declared.from_si if declared else lambda number: number
     return converted(value, number, partial(_copied, declared=declared))
@@ -66,6 +64,6 @@ def _copied(value: Any, declared: Quantity | None) -> Any:
 
 @cache
 def _plain(kind: Any) -> Any:
-    """Return a subclass of the dataclass with a slot for each computed value."""
+    """Return a subclass of a dataclass in which computed values are stored like fields."""
     computed = quantities(kind).keys() - {item.name for item in fields(kind)}
     return type(kind.__name__, (kind,), {"__slots__": tuple(computed), "__doc__": kind.__doc__})

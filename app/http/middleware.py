@@ -94,7 +94,7 @@ class Protection:
             logger.info(json.dumps(line | {"duration_ms": round(seconds * 1e3, 3)}))
 
     def _inner(self, scope: Scope, identifier: str) -> Scope:
-        """Return the scope for the application.
+        """Return the ASGI scope that the application receives.
 
         The path in the scope begins with the prefix from the settings, even if a proxy has removed this prefix.
         """

@@ -11,7 +11,7 @@ from functools import cache
 from importlib.resources import files
 
 FIELDS = "fields"
-"""The chapter that is a table of all fields."""
+"""Name of the chapter that contains the table of all fields."""
 
 NAMES = (
     "coupling",

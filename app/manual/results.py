@@ -162,11 +162,11 @@ PLACES = {
     "heat_balance.warm_up.WarmUp": "H24",
     "drive_train.warm_up.UnitWarmUp": "H24; least_backlash: H22",
 }
-"""The targets in the manual for each of the solvers' dataclasses that declare results.
+"""Targets in the manual for the fields of the solvers' dataclasses. The keys are the dataclasses.
 
-A target is the number of an equation, or a chapter and the anchor of a section. The value for a dataclass is a text
-that lists targets, separated by semicolons. The names of some fields and a colon stand before every target except the
-first; the target belongs to these fields. The first target belongs to all other fields of the dataclass.
+A target is the number of an equation, such as "D15", or a section of a chapter, such as "drive-train#shafts". In
+"D15; scuffing lubricant_factor: R9", the target R9 belongs to the fields `scuffing` and `lubricant_factor`, and the
+target D15 belongs to all other fields of the dataclass.
 """
 
 
@@ -180,7 +180,7 @@ class Place(NamedTuple):
 
 @cache
 def place_of(declared: Quantity) -> Place | None:
-    """Return the place that says how a declared result is computed; None if no solver declares the result."""
+    """Return the place in the manual that says how a result is computed, or None if no solver declares the result."""
     origin = getattr(declared, "origin", None)
     if origin is None:
         return None
@@ -193,9 +193,9 @@ def place_of(declared: Quantity) -> Place | None:
 
 
 def _target(targets: str, name: str) -> str:
-    """Return the place in the manual for the field `name`, written as in `PLACES`, such as "coupling#numerics".
+    """Select the target of the field `name`, such as "coupling#numerics".
 
-    `targets` is the text in `PLACES` for the dataclass of the field.
+    `targets` is a text from `PLACES`. It lists the targets of all fields of one dataclass.
     """
     target, *others = targets.split("; ")
     for other in others:
@@ -206,7 +206,6 @@ def _target(targets: str, name: str) -> str:
 
 
 def _place(target: str) -> Place:
-    """Return the place in the manual to which a target leads."""
     chapter, _, section = target.partition("#")
     if section:
         return Place(f"section {section.replace('-', ' ')}", f"/manual/{target}", chapter)

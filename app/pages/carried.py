@@ -1,9 +1,8 @@
-"""Links that carry the gears or the coupling of a case to other calculations.
+"""Links that carry the gears or the coupling of a page to the pages of other calculations.
 
-A link fills in the fields that the other calculation has. The query field `pair` of the link keeps the values of the
-remaining fields. A later link to a third calculation, or back to the first calculation, can therefore contain all
-values. The query field `pair` is left out if the link would be too long. If the case was read from a REXS file, the
-link also names this file.
+A link fills in all fields that the other calculation has. The query field `pair` of the link keeps the values of the
+remaining fields, so that a later link can fill them in again. If the link would be too long, `pair` is left out. If
+the values were read from a REXS file, the link also names this file.
 """
 
 from collections.abc import Iterable, Iterator
@@ -18,12 +17,12 @@ from app.schema.fields import ITEM, Branch, Leaf, branches, leaf_at, tree
 from app.schema.model import Documented
 
 SUBJECTS = {"gears": "pair", "coupling": "coupling"}
-"""The sections that several calculations share. A section describes a subject: a gear pair or a coupling."""
+"""The sections that several calculations share, and what each section describes: a gear pair or a coupling."""
 LOAD, OPERATION = "load.", "operation."
-"""Prefixes of field names. Both prefixes denote the same section, which has two names.
+"""Two prefixes of field names that denote the same section.
 
-Requests of scuffing and the query field `pair` call the section `load`. The other requests call the section
-`operation`.
+The section is `load` in requests of scuffing and in the query field `pair`. The section is `operation` in all other
+requests.
 """
 
 
@@ -39,19 +38,19 @@ class Use(NamedTuple):
 
 
 def subject_of(calculation: Calculation) -> str:
-    """Return the subject of a calculation, "pair" or "coupling"; an empty text if the calculation has neither."""
+    """Return what a calculation describes: "pair" for a gear pair, "coupling" for a coupling, otherwise ""."""
     return next((name for section, name in SUBJECTS.items() if section in branches(calculation.request)), "")
 
 
 def uses(asked: Asked) -> list[Use]:
-    """Return the links that carry the gears or the coupling of a case to other calculations."""
+    """Return links to all other calculations that accept the same gears or the same coupling."""
     subject = subject_of(asked.calculation)
     others = (other for other in CALCULATIONS if other is not asked.calculation and subject_of(other) == subject)
     return [_use(asked, other) for other in others] if subject else []
 
 
 def _use(asked: Asked, other: Calculation) -> Use:
-    """Return the link that carries the fields of a case to another calculation."""
+    """Return the link to the calculation `other`, filled in with the fields of the page."""
     own = [(_common(asked.calculation, name), text) for name, text in asked.pairs]
     beyond = pairs_of_query(asked.views.get("pair", ""))
     fields = dict(beyond) | dict(own)
@@ -66,10 +65,9 @@ def _use(asked: Asked, other: Calculation) -> Use:
 
 
 def _common(calculation: Calculation, name: str) -> str:
-    """Return the shared name of the field that a calculation calls `name`.
+    """Return the name under which a link keeps the field `name` of a calculation.
 
-    In calculations of gears, the prefix `operation` becomes `load` if requests of scuffing have a field of the new
-    name. In all other cases the shared name is `name`.
+    In calculations of gears, the prefix `operation` becomes `load` if scuffing has a field of the new name.
     """
     if subject_of(calculation) != "pair" or not name.startswith(OPERATION):
         return name
@@ -78,7 +76,7 @@ def _common(calculation: Calculation, name: str) -> str:
 
 
 def _there(calculation: Calculation, name: str) -> str:
-    """Convert the shared name of a field into the name of the field in the request of a calculation."""
+    """Convert a field name that a link keeps into the name of the field in the request of a calculation."""
     if name.startswith(LOAD) and not _has(calculation.request, name):
         return f"{OPERATION}{name.removeprefix(LOAD)}"
     return name
@@ -113,7 +111,7 @@ def _missing(branch: Branch, names: set[str]) -> Iterator[str]:
 
 
 def _choices(model: type[Documented]) -> Iterable[tuple[str, ...]]:
-    """Return the groups of alternative fields. A request must give one field of each group."""
+    """Return the groups of fields of which a request must contain exactly one."""
     groups: Any = model.exclusive if getattr(model, "choice_missing", None) else ()
     return [group for group in groups[:1] if all(model.model_fields[name].default is None for name in group)]
 
@@ -123,5 +121,5 @@ def _leaf(branch: Branch, path: str) -> Leaf | None:
 
 
 def _is_given(path: str, names: set[str]) -> bool:
-    """Return whether the names contain this path, or the path of a field below this path."""
+    """Return whether `names` contains the path of a section, or the path of a field in this section."""
     return any(name == path or name.startswith(f"{path}.") for name in names)

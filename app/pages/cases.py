@@ -47,12 +47,12 @@ class Asked:
     prefix that a proxy puts before the addresses of the service. `pressed` is True if the user sent the form, even if
     no field was filled in.
 
-    Addresses that people may store contain a hash of the solvers' source code. If such an address is opened later, the
-    page compares this hash with the present hash, and tells the reader whether the numbers may have changed.
+    An address that people may store contains a hash of the solvers' source code. If the present source code has another
+    hash, the page tells the reader that the numbers may have changed.
 
-    A case that is too long for a link is sent by POST. The addresses of the figures of such a case contain `answered`.
-    The field `answered` holds two hashes: the hash of the case and the hash of the variant. The answers state these
-    hashes. The address of a figure works as long as both answers are kept.
+    A case that is too long for a link is sent by POST. The addresses of its figures contain the field `answered`, which
+    holds two hashes: the hash of the case and the hash of the variant. Such an address works as long as the answers of
+    both are kept.
     """
 
     path: str
@@ -76,9 +76,10 @@ class Asked:
 
     @property
     def case(self) -> dict[str, Any]:
-        """The request with its defaults, or a substitute if the request is not valid.
+        """The validated request with its defaults.
 
-        The substitute is the body that was made from the fields. If this body is unreadable, the substitute is empty.
+        If the request is not valid, the value is the unchecked request body. If the names of fields contradict each
+        other, the value is empty.
         """
         try:
             return validated(self.calculation.request, self.body).model_dump()
@@ -124,9 +125,8 @@ class Asked:
     def written(self) -> str:
         """The value of the form's hidden field `written`.
 
-        The server fills in the form with texts. If a user typed the same texts, the server would read some of them
-        differently. The hidden field holds only these ambiguous texts, with the names of their fields. When the form is
-        sent, the server thus knows which of the ambiguous texts nobody typed.
+        The server fills in the form with texts. Some of these texts would be read differently if a user had typed them.
+        The hidden field lists these texts, so that the server can tell them from typed texts when the form is sent.
         """
         return written_of(self.calculation.request, self.pairs)
 
@@ -192,10 +192,9 @@ def opened(content: bytes, root: str) -> Asked:
 
 
 def key_of(path: str, pairs: Pairs) -> str:
-    """Return the key under which the answer of a case is kept: a hash of `path` and of the fields of the case.
+    """Return the key under which the answer of a case is kept.
 
-    The order of the fields does not matter. If the case is too long for a link, a single field `case` replaces all
-    fields. The value of this field is the hash of the case. The answer states this hash.
+    The key is a hash of `path` and of the fields of the case. The order of the fields does not matter.
     """
     return sha256(repr((path, sorted(pairs))).encode()).hexdigest()
 
@@ -220,9 +219,10 @@ class Case:
 def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None, detail: Detail = "fields") -> Case:
     """Return the case with its answer. By default the answer has all fields that the figures of the case need.
 
-    If `kept` is given, request and result are taken from this kept answer, and `pairs` is ignored. Raises Unreadable if
-    names of fields are malformed or contradict each other, InvalidBody if the request is invalid, and Unprocessable if
-    the solver refuses the inputs.
+    If `kept` is given, request and result are read from `kept`, and `pairs` is ignored.
+
+    Raises Unreadable if names of fields are malformed or contradict each other. Raises InvalidBody if the request is
+    invalid. Raises Unprocessable if the solver refuses the inputs.
     """
     if kept is None:
         body = body_of(calculation.request, pairs)
@@ -252,7 +252,8 @@ def faults_of(error: Exception, calculation: Calculation) -> list[Fault]:
 def _titled(message: str, path: str, calculation: Calculation) -> str:
     """Replace the names of fields in a message by the titles of these fields.
 
-    If several fields have the same name, the field in the section of `path` is preferred.
+    Two fields in different sections may have the same name. A name then stands for the field in the section of the
+    field `path`, if this section has such a field.
     """
     section, _, own = path.rpartition(".")
     models = (calculation.request, calculation.response)
@@ -267,9 +268,10 @@ def _titled(message: str, path: str, calculation: Calculation) -> str:
 
 
 def _fill(branch: Branch, body: dict[str, Any]) -> None:
-    """Add the required sections that are missing from the body, as empty sections.
+    """Add an empty section to the body for each required section that is missing.
 
-    The validator then reports the missing fields instead of the missing section. Users see these fields on the page.
+    Validation then reports each missing field, and not the missing section. Only fields are visible to users on the
+    page.
     """
     for inner in branch.branches:
         name = inner.path.rpartition(".")[2]

@@ -124,12 +124,10 @@ def _data_address(image: bytes) -> str:
 
 
 def in_columns(figures: Iterable[Figure]) -> list[tuple[Figure, str]]:
-    """Draw the figures for the columns of a report. Return figures and images in the order of the report.
+    """Draw the figures for a report with two columns. Return figures and images in the order of the report.
 
-    Images are addresses of the scheme `data:`. The report has two columns. Figures that fit into a column come first,
-    in pairs. The first figure of a pair is the next figure in the given order. The second figure of the pair is the
-    remaining figure whose height is nearest to the height of the first figure. Figures that need the whole width come
-    last.
+    Images are addresses of the scheme `data:`. Figures that fit into one column come first, in pairs of similar height.
+    Figures that need the whole width come last.
     """
     from app.figures.drawing.image import draw_for_report, size  # noqa: PLC0415  only workers draw
 
@@ -146,7 +144,7 @@ def in_columns(figures: Iterable[Figure]) -> list[tuple[Figure, str]]:
 
 
 def values_of(figure: Figure) -> bytes:
-    """Return the places of the panels in the image, the curves of the panels and the table of values, all as JSON."""
+    """Return the curves of a figure, the positions of its panels in the image, and its table of values, as JSON."""
     return json.dumps({"panels": _panels(figure), **_table(figure)}).encode()
 
 
@@ -169,7 +167,10 @@ def _cell(item: Item) -> str:
 
 
 def _panels(figure: Figure) -> list[dict[str, Any]]:
-    """Return the curves of the panels that have curves, and the places of these panels as fractions of the image."""
+    """Return the curves of each panel, and the position of the panel as fractions of the image.
+
+    Panels without curves are left out.
+    """
     from app.figures.drawing.image import places  # noqa: PLC0415  only workers draw
 
     panels = []

@@ -35,9 +35,9 @@ class State:
 
     `texts` holds the texts of the fields, `faults` holds the messages about their faults, and `resolved` holds the
     values that an answer used for the fields. `assumed` are the fields whose default is our own assumption. `required`
-    is the remark beside required fields. The remark says that these fields are always required, or that they are
-    required only if their optional section is used. `deciding` are the fields on which a verdict depends; the sections
-    of these fields are open. `endpoint` is the endpoint to which the form belongs.
+    is the remark beside required fields, for example "required if used" in an optional section. `deciding` are the
+    fields on which a verdict depends; the sections of these fields are open. `endpoint` is the endpoint to which the
+    form belongs.
     """
 
     texts: Mapping[str, str] = field(default_factory=dict)
@@ -91,7 +91,7 @@ class FieldView:
 
 @dataclass(frozen=True, slots=True)
 class Choice:
-    """Fields of which only one may be given; `picked` is the name of the field that is used."""
+    """Alternative fields, of which only one may be given; `picked` is the name of the field that is used."""
 
     name: str
     fields: tuple[FieldView, ...]
@@ -181,10 +181,10 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
 
 
 def _section(title: str, blocks: Iterable[Block], state: State, paths: list[str], **settled: Any) -> Section:
-    """Return the form's section with the fields at or below `paths`; `settled` holds further attributes of the section.
+    """Return a section of the form, with the fields of the request at or below `paths`.
 
-    The section is open if `settled` marks it as needed. It is also open if one of its fields is given, has a fault or
-    affects a verdict.
+    `settled` holds further attributes of the section. The section is open if `settled` marks it as needed. It is also
+    open if one of its fields is given, has a fault or affects a verdict.
     """
     groups = (state.texts, state.faults, state.assumed, state.deciding)
     given, faulty, assumed, deciding = (sum(_count(names, path) for path in paths) for names in groups)
@@ -206,7 +206,7 @@ def _count(names: Iterable[str], path: str) -> int:
 
 
 def _branch(branch: Branch, path: str, state: State, item: int | None = None) -> Section:
-    """Return the form's section for a section of the request.
+    """Return the part of the form that shows a section of the request.
 
     If the section is an item of a list, `item` is the index of the section in the list.
     """
@@ -317,9 +317,9 @@ def _choice(group: tuple[Leaf, ...], prefix: str, state: State, required: str) -
 
 
 def _own(leaf: Leaf, name: str, state: State) -> FieldView:
-    """Return the view of a field that is not part of a choice.
+    """Return the view of a field that has no alternative fields.
 
-    The view of a matrix has an inner view for each element.
+    The view of a matrix contains a view of each element.
     """
     whole, resolved = field_view(leaf, name, state), state.resolved.get(name)
     if leaf.dimensions < MATRIX:
@@ -377,8 +377,8 @@ def _placeholder(leaf: Leaf, value: Any) -> str:
 def _options(leaf: Leaf, text: str) -> tuple[tuple[str, str], ...]:
     """Return the values and labels of the options of a field; empty if the field has no options.
 
-    The option for the default has an empty value. The text in the field is always an option, even if this text is not
-    permissible.
+    The option for the default has an empty value, unless the user typed the default. The text in the field is always an
+    option, even if this text is not permissible.
     """
     named = {str(option): words(str(option)) for option in leaf.options}
     if leaf.kind == "boolean":

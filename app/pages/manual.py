@@ -153,7 +153,7 @@ def _is_of(leaf: Leaf, chapter: Chapter) -> bool:
 
 @dataclass(frozen=True, slots=True)
 class ShownStudy:
-    """A study of an example. A chapter of the manual shows one of the figures of this study.
+    """A study of an example case. A chapter of the manual shows one figure of this study.
 
     `path` and `pairs` form the link to the case. `page` is the part of the address that names the kind of study, and
     `controls` are the settings of the study.

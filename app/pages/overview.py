@@ -32,7 +32,7 @@ def start_page(root: str) -> str:
 def _entry(calculations: list[Calculation]) -> dict[str, Any]:
     """Return what the start page shows of a model: a question, a figure and the calculations of the model.
 
-    The question is the title of an example. This example belongs to the first calculation of the model.
+    The question is the title of an example of the first calculation.
     """
     first = calculations[0]
     of_first = examples_of(first)
@@ -70,10 +70,10 @@ def unit_page(root: str, unit: dict[str, Any], name: str = "", sha256: str = "")
 
 
 def _titled(field: str, asked: Iterable[str]) -> str:
-    """Return the title of an endpoint, or of a field of a request.
+    """Return the title of an endpoint or of a field of a request.
 
-    `field` is the dotted path of the field. The title is first looked up in the requests of the endpoints whose paths
-    are in `asked`, then in the requests of all other endpoints. `field` may also be the path of an endpoint.
+    `field` is the path of an endpoint or the dotted path of a field. The title of a field is first looked up in the
+    requests of the endpoints `asked`, then in the requests of all other endpoints.
     """
     if field in BY_PATH:
         return BY_PATH[field].title

@@ -50,15 +50,15 @@ VIEW_NAMES = REPORT_NAMES.keys() | {
 `split_views` adds the names of the controls of studies.
 """
 PICK = "pick:"
-"""The beginning of the name of a query field that chooses among fields that exclude each other.
+"""Prefix of a query field that states the user's choice among several fields that exclude each other.
 
-The text of this query field is the name of the chosen field.
+The text of the query field is the name of the chosen field.
 """
 WRITTEN = "written"
-"""The name of a hidden field that only forms send.
+"""The name of a hidden field of a form.
 
-The content of this field is a query string with texts that the server wrote into the form. The string contains only the
-texts that would have another meaning if a user typed them.
+The hidden field lists texts that the server wrote into the form, as a query string. The list contains only texts that
+would have another meaning if a user typed them.
 """
 MOST_FIELDS = 1000  # chosen: many more than the longest form has
 DEEPEST = 12  # largest number of parts of a name; the names of all fields have fewer parts
@@ -135,10 +135,10 @@ def _in_link(model: type[Documented], name: str, text: str, others: dict[str, st
 
 
 def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
-    """Return the fields in the form that the link of a case contains.
+    """Return those fields that the link of a case contains.
 
-    If a field is chosen (see `PICK`), the fields that must be empty beside this field are left out. Empty fields and
-    the choices themselves are also left out. The items of lists of sections are renumbered.
+    Empty fields are left out. If the user has chosen one of several fields that exclude each other, the other fields
+    are left out. The fields that state such a choice (see `PICK`) are left out too. The items of lists are renumbered.
     """
     picked = {text for name, text in pairs if name.startswith(PICK)}
     kept: Pairs = []
@@ -168,7 +168,7 @@ def _renumbered(path: str, pairs: Pairs) -> Pairs:
 
 
 def excluded(name: str, leaf: Leaf) -> tuple[str, ...]:
-    """Return the names of the fields and sections that must be empty if a field is given."""
+    """Return the names of all fields and sections that must be empty if the field `name` is given."""
     section = name.rpartition(".")[0]
     return tuple(f"{section}.{fellow.rpartition('.')[2]}".lstrip(".") for fellow in leaf.exclusive)
 
@@ -253,7 +253,7 @@ def _listed(leaf: Leaf, text: str) -> list[Any]:
 
 
 def _with_lists(model: type[Documented], content: Any, path: str = "") -> Any:
-    """Return the content with a list or a matrix in place of each object whose keys are indices."""
+    """Replace each object whose keys are indices by a list or a matrix, and return the content."""
     if not isinstance(content, dict):
         return content
     inner = {name: _with_lists(model, value, f"{path}.{name}".lstrip(".")) for name, value in content.items()}
@@ -265,11 +265,11 @@ def _with_lists(model: type[Documented], content: Any, path: str = "") -> Any:
 
 
 def _matrix(elements: dict[str, Any]) -> Any:
-    """Return a matrix as a list of rows; `elements` holds the elements by the index of the row and of the column.
+    """Return a matrix as a list of rows.
 
-    If only the first element is given, return this element, which stands for a multiple of the unit matrix. A missing
-    element becomes None, so that the validator reports the missing element. If a key of `elements` is not an index of
-    the matrix, return `elements` unchanged.
+    `elements` maps the index of each row to its elements, and these map the index of each column to a text. A missing
+    element becomes None. If only the first element is given, return this element alone: it stands for a multiple of
+    the unit matrix. If a key is not an index of the matrix, return `elements` unchanged.
     """
     places = [str(place) for place in range(SIDE)]
     rows = [elements.get(place, {}) for place in places]

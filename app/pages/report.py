@@ -105,11 +105,10 @@ def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Secti
 
 
 def _left(sections: list[Section]) -> list[tuple[str, list[tuple[Leaf, str, bool]]]]:
-    """Return the titles of the sections, and the inputs of each section that have their default value or no value.
+    """Return, for every section, its title and the inputs that have their default value or no value.
 
     Sections without such inputs are left out. Every input comes with a text and a boolean. If the boolean is True, the
-    input has a default value, and the text is this value. If the boolean is False, the input has no value, and the text
-    says what is used instead. For example, the text names the quantity from which the value is estimated.
+    text is the default value. If the boolean is False, the text says what is used instead of a value.
     """
     left = []
     for title, _, rows in sections:

@@ -58,7 +58,7 @@ class Row:
 
 
 def entries(response: Documented) -> Iterator[Entry]:
-    """Yield all results; the items of a list of sections follow one another."""
+    """Yield all results of an answer."""
     for member in tree(type(response)).members:
         if member.path not in NOT_RESULTS:
             yield from _entries(member, getattr(response, member.path), member.path, "")
@@ -80,10 +80,7 @@ def _entries(member: Leaf | Branch, value: Any, path: str, around: str) -> Itera
 
 
 def _title_of_item(member: Branch, index: int) -> str:
-    """Return the title of an item in a list of sections.
-
-    The title of a shaft names the gear on this shaft. Any other title has a number.
-    """
+    """Return the title of an item of a list, such as "wheel shaft". Items other than shafts have numbers."""
     if member.path.rpartition(".")[2] == "shafts" and index < len(SHAFTS):
         return SHAFTS[index]
     return f"{member.title} {index + 1}"
@@ -125,7 +122,7 @@ def differences(request: type[Documented], response: Response, before: Response)
 
 
 def assumptions(request: type[Documented], response: Response) -> list[Row]:
-    """Return the defaults chosen by this project that the answer used, with the reason for each default."""
+    """Return the inputs for which the answer uses a default of this project, with the reason for each default."""
     return [
         replace(_row(leaf, assumption.field, assumption.value, label=leaf.title), remark=assumption.reason)
         for assumption in response.assumptions
@@ -143,7 +140,10 @@ def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, dig
 
 
 def _named(leaf: Leaf, items: tuple[str, ...]) -> tuple[str, ...]:
-    """Put a name before each item, such as a component of a vector, if names of items are declared for the field."""
+    """Put its name before each item, such as "x" before a component of a vector.
+
+    If the field declares no names, return the items unchanged.
+    """
     names = (leaf.declared.index or "").split(", ")
     return tuple(map(" ".join, zip(names, items, strict=True))) if len(names) == len(items) > 1 else items
 
@@ -168,8 +168,8 @@ def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
 def _change(now: Any, before: Any, unit: str) -> str:
     """Return the change from `before` to `now` as text.
 
-    The change is in per cent. For quantities whose ratios have no meaning, such as temperatures, the change is a
-    difference.
+    The change is usually in per cent. For temperatures and similar quantities, the change is a difference, because
+    their ratios have no meaning.
     """
     if isinstance(now, bool) or not isinstance(now, int | float) or not isinstance(before, int | float):
         return "no change" if now == before else "changed"
@@ -205,12 +205,11 @@ def resolved(response: Response) -> dict[str, Any]:
 
 
 def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> list[Row]:
-    """Return the headline numbers, sorted by rank.
+    """Return one headline number for each rank, sorted by rank.
 
-    If several numbers have the same rank, only the number with the worst verdict is returned. Only verdicts that are
-    part of the answer count here; comparisons with a limit do not count. If several numbers of the same rank have the
-    worst verdict, the largest of these numbers is returned. If a warning makes the answer doubtful, the level `near`
-    replaces the level `good`.
+    If several numbers have the same rank, the number that the answer itself judges worst is returned. If the answer
+    judges several of these numbers equally, the largest of them is returned. If a warning makes the answer doubtful,
+    the level `good` is lowered to `near`.
     """
     values, old = values_by_path(response), values_by_path(before)
     judged = verdicts(response) if isinstance(response, Response) else {}
@@ -238,7 +237,7 @@ def _with_band(items: tuple[str, ...], leaf: Leaf, values: dict[str, Any]) -> tu
 
 
 def _badness(verdict: Verdict | None) -> int:
-    """Return the index of a verdict's level in `LEVELS`, where the worst level is last; 0 if there is no verdict."""
+    """Return a number that is larger the worse the verdict is. Return 0 if there is no verdict."""
     return LEVELS.index(verdict.level) if verdict else 0
 
 
@@ -249,8 +248,8 @@ def _size(value: Any) -> float:
 def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[str, str]:
     """Return the level and the words of the verdict on a headline number.
 
-    If the answer itself judges the number, the words come from the answer. Otherwise the words compare the number with
-    its limit. `values` holds inputs and results under their paths.
+    If a field of the answer judges the number, the words are taken from this field. Otherwise the words compare the
+    number with its limit. `values` holds inputs and results under their paths.
     """
     view, value = leaf.view, values.get(leaf.path)
     if value is None:
@@ -274,9 +273,9 @@ def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[
 
 
 def _standing(value: float, limit: float, *, greatest_is_best: bool) -> tuple[str, str]:
-    """Return the level of a value, and words that compare the value with its limit.
+    """Compare a value with its limit: return the level (good, near or bad) and a text.
 
-    In these words, `{}` stands for the limit.
+    In the text, `{}` stands for the limit.
     """
     if greatest_is_best:
         if value < limit:

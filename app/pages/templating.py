@@ -32,7 +32,7 @@ def page_path(calculation: Calculation) -> str:
 
 
 def model_of(calculation: Calculation) -> str:
-    """Return the model to which a calculation belongs."""
+    """Return the name of the machine model to which a calculation belongs, such as "drive-train"."""
     return page_path(calculation).split("/")[1]
 
 
@@ -48,9 +48,9 @@ def example_link(calculation: Calculation, example: Example) -> str:
 
 @cache
 def by_model() -> dict[str, list[Calculation]]:
-    """Return the calculations of each model.
+    """Return the calculations by the name of their machine model.
 
-    The drive train comes first, because the model of the drive train combines the other models.
+    The drive train comes first, because it combines the other machine models.
     """
     models: dict[str, list[Calculation]] = {"drive-train": []}
     for calculation in CALCULATIONS:

@@ -136,10 +136,7 @@ def scaled(value: Any, power: int) -> Any:
 
 
 def as_typed(text: str) -> str:
-    """Remove the marks of doubtful numbers from a text in a link.
-
-    In a link, a question mark follows each doubtful number.
-    """
+    """Remove the question marks that mark doubtful numbers in a link."""
 
     def unmarked(item: str) -> str:
         return item.removesuffix(DOUBT) if question(item) else item
@@ -159,7 +156,10 @@ def power_between(typed: str | None, own: str | None) -> int | None:
 
 
 def question(text: str) -> str:
-    """Return the question that asks which reading of a link's text is meant; empty if there is only one reading."""
+    """Return a question about a text that can be read in two ways.
+
+    Return an empty text if there is only one reading.
+    """
     asked = text.removesuffix(DOUBT)
     if asked == text and not _AMBIGUOUS.fullmatch(text):
         return ""
@@ -225,20 +225,21 @@ def _items(text: str, unit: str | None) -> list[str] | None:
 
 
 def _has_several(item: str) -> bool:
-    """Return whether the commas separate numbers and are not decimal commas.
+    """Return True if the text consists of several numbers that commas separate.
 
-    The commas separate numbers if the numbers have decimal points, or if there are more than two numbers.
+    This is assumed if there are decimal points beside the commas, or if there are several commas. Digits in groups of
+    three are a single number.
     """
     grouped = _ENGLISH.fullmatch(item) or _GERMAN.fullmatch(item)
     return not grouped and (item.count(",") > 1 or ("," in item and "." in item))
 
 
 def _settled(item: str, decimal: set[str]) -> str:
-    """Add a zero to the end of a doubtful number if the list shows that the mark in the number is a decimal mark.
+    """Add a zero to a doubtful number if the other numbers of the list show that its mark is a decimal mark.
 
-    The mark in a number is a point or a comma. A number is doubtful if three digits follow the mark, because the mark
-    may then separate decimals or thousands. `decimal` contains the marks that are decimal marks in other numbers of the
-    list. With the zero, the number has four decimals and is no longer doubtful.
+    The mark is a point or a comma. With three digits after the mark, the number is doubtful, because the mark may
+    separate either decimals or thousands. With a zero added, the number can only have decimals. `decimal` contains the
+    marks that are decimal marks in other numbers of the list.
     """
     doubtful = _DOUBTFUL.match(item)
     return f"{item[: doubtful.end()]}0{item[doubtful.end() :]}" if doubtful and doubtful[2] in decimal else item

@@ -9,7 +9,7 @@ from app.figures.wording import number, subscripts
 _LETTER = re.compile(r"[^\W\d_]{1,2}\*?")
 _SECOND_HAND = "as read in a public implementation"
 REPORT, STANDARD = "ISO/TR 13989-1", "ISO/TS 6336-20 (ISO/TR 13989-1)"
-"""The technical report that the sources name, and the technical specification that replaced this report."""
+"""The name of a withdrawn technical report in our sources, and the text that pages print for this name."""
 NO_VALUE = "–"
 _WORDS = {
     "allowable_misalignment": "permissible misalignment",
@@ -62,10 +62,10 @@ def shown(value: object, digits: int = 5) -> str:
 
 
 def cited(text: str) -> str:
-    """Return a source or a reason as pages print it.
+    """Return the text of a source or a reason as pages print it.
 
-    If the text names the withdrawn report ISO/TR 13989-1, the specification ISO/TS 6336-20, which replaced the report,
-    is named too. A source that we know only at second hand is called "secondary source".
+    The specification ISO/TS 6336-20 is added to the name of the report ISO/TR 13989-1, which it has replaced. A source
+    that we know only at second hand is called "secondary source".
     """
     return text.replace(_SECOND_HAND, "secondary source").replace(REPORT, STANDARD)
 

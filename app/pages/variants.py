@@ -18,7 +18,7 @@ KEPT = 64  # number of variants whose inputs and results a worker keeps
 
 
 class Column(NamedTuple):
-    """A variant: its name, its address, and its values under their paths.
+    """A variant of a case: its name, its address, its inputs and its results.
 
     If the variant has no values, `trouble` says why.
     """
@@ -38,7 +38,7 @@ class Line(NamedTuple):
 
 
 class Variants(NamedTuple):
-    """The table of the variants: its columns, and its lines with inputs and results."""
+    """The table of the variants. Each variant is a column; each input and each result is a row."""
 
     columns: list[Column]
     inputs: list[Line]

@@ -70,9 +70,9 @@ def form_page(asked: Asked) -> Shown:
 
 
 def _deciding(calculation: Calculation) -> frozenset[str]:
-    """Return the inputs that headline numbers need, and the inputs that may be given instead of a needed input.
+    """Return the inputs without which a headline number has no value.
 
-    If neither the needed input nor one of its alternatives is given, the headline number has no value.
+    If another input may be given instead of such an input, the other input is also returned.
     """
     needed = (leaf_at(calculation.request, leaf.view.needs or "") for leaf in headlines(calculation.response))
     return frozenset(path for leaf in needed if leaf for path in (leaf.path, *excluded(leaf.path, leaf)))
@@ -133,11 +133,11 @@ def _asked_back(pairs: Pairs, faults: list[Fault]) -> list[Fault]:
 
 
 def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:
-    """Return the answers of the case and of the variant that the service does not store yet.
+    """Return the answers that the service shall store, under their keys.
 
-    The keys are made by `key_of` from the fields of the case and from the fields of the variant. If the case is too
-    long for a link, both answers are also returned under keys made from the hashes of the case and of the variant,
-    even if the service already stores these answers.
+    These are the answers of the case and of the variant that the service does not store yet; `key_of` makes the key of
+    an answer from the fields. If the case is too long for a link, both answers are also returned under keys made from
+    hashes.
     """
     keep = {}
     for pairs, kept, answered in (asked.pairs, asked.kept, case), (asked.ref_pairs, asked.kept_ref, variant):
@@ -197,8 +197,8 @@ def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, c
 def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
     """Return the other calculations whose pages show further figures of the case.
 
-    An item has the title of the other calculation, the address of the case on the page of that calculation, and the
-    titles of the figures.
+    An item has three parts: the title of the other calculation, the address of its page with the data of the case, and
+    the titles of the figures.
     """
     pages, declarations = [], asked.calculation.figures
     for path in dict.fromkeys(declaration.shown_at for declaration in declarations if declaration.shown_at):
@@ -211,10 +211,10 @@ def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
 
 
 def _both(asked: Asked) -> tuple[Case, Case | None, str]:
-    """Return the case, the variant, and the reason why the variant cannot be computed.
+    """Return the case, the variant for comparison with the case, and the reason why the variant cannot be computed.
 
-    The page compares the case with the variant. If the query names no variant, or if the variant cannot be computed,
-    the variant is None. If the variant cannot be computed, the reason says why; otherwise the reason is empty.
+    The variant is None if the query names no variant, or if the variant cannot be computed. The reason is empty if the
+    variant can be computed, or if the query names no variant.
     """
     case = solved(asked.calculation, asked.pairs, asked.kept)
     if not asked.ref and asked.kept_ref is None:

@@ -94,11 +94,11 @@ def unit_html(root: str, content: bytes, most_bytes: int, name: str = "") -> byt
 def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | None, deadline_s: float) -> File:
     """Calculate a stage, and return the file with the results of the stage.
 
-    `request` is the request of the stage after the user edited it. If `request` is None, the request is made from the
-    file: a drive-train request if the file describes a drive train, else a request of /v1/scuffing.
+    `request` is the request that the user edited. If `request` is None, the request is made from the file. It is then a
+    drive-train request if the file describes a drive train, and otherwise a request of /v1/scuffing.
 
-    Raises Unprocessable if the file is not readable or does not contain the stage. If the request is not valid, raises
-    the same errors as the endpoint of the request.
+    Raises Unprocessable if the file is not readable or does not contain the stage. Raises the errors of the endpoint if
+    the request is not valid.
     """
     document = read(content, most_bytes)
     row = next((row for row in gear_unit(document.model)["stages"] if row["id"] == stage), None)
@@ -119,10 +119,9 @@ def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | N
 def with_answer(document: Document, stage: int, endpoint: str, answer: dict[str, Any]) -> File:
     """Return the file with new attributes of the stage.
 
-    The attributes state the results of the answer, the status of the answer, and the identifier of the case.
-    A result is written to the attribute of the standard if the file's version of REXS has an attribute for this result.
-    The names of all other new attributes begin with `custom_tribodrive_`. REXS reserves names that begin with `custom_`
-    for the attributes of programs.
+    The new attributes state the results of the answer, its status, and the identifier of the case. If REXS, in the
+    version of the file, has an attribute for a result, the result is written to this attribute. All other attributes
+    have names that begin with `custom_tribodrive_`.
     """
     major, written = int(document.model.version.split(".")[0]), []
     for path, name, unit in table.RESULTS[endpoint]:

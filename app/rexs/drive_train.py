@@ -175,8 +175,8 @@ class _DriveTrain:
     def _sections(self, shaft: Component) -> list[Section]:
         """Return the sections of a shaft.
 
-        Each cone is replaced by short cylinders. A cylinder has the diameters that the cone has at the middle of the
-        cylinder.
+        Each cone is replaced by short cylinders. The diameters of a cylinder are the diameters of the cone at the
+        middle of the cylinder.
         """
         reading, stage = self._reading, self._stage
         base, sense = stage.position_of_coordinate(shaft, 0.0) or 0.0, stage.along(shaft)

@@ -40,8 +40,8 @@ class Lubrication:
     def _base_oil(self, oil: Component) -> None:
         """Fill in the kind of base oil.
 
-        The kind is taken from the attributes for the lubricant type. If none of these attributes names the kind, the
-        kind is taken from other texts about the oil. A kind of oil that is not modelled is recorded as a finding.
+        The attributes for the type of lubricant count before other texts about the oil. If there is no model for the
+        kind of oil in the file, the kind is recorded as a finding.
         """
         path, texts = "lubricant.kind", {}
         for name in (*table.OIL_TYPES, *table.OIL_WORDS):
@@ -98,7 +98,7 @@ class Lubrication:
         self._supply_by_factor()
 
     def _supply_by_factor(self) -> None:
-        """Fill in the kind of oil supply that belongs to the lubrication factor stated in the file."""
+        """Set the oil supply from the lubrication factor in the file."""
         factor = self._reading.number(self._stage.stage, table.SUPPLY_FACTOR)
         if factor is None:
             return

@@ -96,7 +96,7 @@ class Model:
         return next(iter(self.by_type[type_]), None)
 
     def part(self, relation: Relation, role: str) -> Component | None:
-        """Return the component that has a role in a relation, or None if there is no such component."""
+        """Return the component with the role `role` in a relation, or None if there is no such component."""
         id_ = relation.part(role)
         return None if id_ is None else self.components.get(id_)
 
@@ -109,15 +109,15 @@ class Model:
         return sorted(relations, key=lambda relation: (relation.order is None, relation.order or 0))
 
     def related(self, type_: str, role: str, component: int, other: str) -> Iterator[Component]:
-        """Yield the partners of a component in the relations of a type.
+        """Yield the components with the role `other` in those relations in which `component` has the role `role`.
 
-        In these relations, the component has the role `role`, and its partner has the role `other`.
+        Only relations of the type `type_` count.
         """
         partners = (self.part(relation, other) for relation in self.relations_of(type_, role, component))
         return (partner for partner in partners if partner is not None)
 
     def parts_of(self, assembly: int) -> Sequence[Component]:
-        """Return the parts of an assembly without repetitions."""
+        """Return the components that an assembly consists of. Each component is listed once."""
         parts = (part for kind in ASSEMBLIES for part in self.related(kind, "assembly", assembly, "part"))
         return list({part.id: part for part in parts}.values())
 

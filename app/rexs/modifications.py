@@ -46,12 +46,12 @@ class Modifications:
         return [item for item in modifications if item.type in table.MODIFICATIONS]
 
     def _working_side(self, place: int) -> str | None:
-        """Return the side of the loaded flank: "left" or "right", or None if the loaded flank is not known.
+        """Return which flank of a gear is loaded, "left" or "right"; return None if the loaded flank is not known.
 
-        If the file does not state the loaded flank, the loaded flank follows from the sense of rotation and from the
-        driving gear. The datum face is the end of the gear at which the coordinate u along the shaft is least. Seen
-        from the datum face, a gear with positive speed turns clockwise. With this sense of rotation, the right flank of
-        a driving gear and the left flank of a driven gear are loaded.
+        If the file does not state the loaded flank, the function derives it from the sense of rotation. The gear is
+        seen from its datum face, that is, from the end at which the coordinate u along the shaft is least. Seen from
+        there, a gear with positive speed turns clockwise. With this sense of rotation, the right flank of a driving
+        gear and the left flank of a driven gear are loaded.
         """
         stage = self._stage
         for data in stage.gear_data(place):
@@ -63,9 +63,9 @@ class Modifications:
         return "right" if (speed > 0.0) == (place == 0) else "left"
 
     def _crowning(self, kind: str, field: str, ends: tuple[str, str]) -> None:
-        """Fill in the sum of the crownings of both gears.
+        """Fill in the crowning, which is the sum of the crownings of both gears.
 
-        The crowning of a gear is the mean of the amounts at both ends of the face.
+        If the file states different amounts for the two ends of a gear, the mean of the two amounts is used.
         """
         means, origin = [], None
         for _, item in self._carried:
@@ -177,10 +177,9 @@ class Modifications:
     def _end_sense(self, place: int) -> float | None:
         """Return +1 if the u axis of the gear's shaft points to the end of the face that leaves the mesh last, else -1.
 
-        Return None if the sense of rotation is not known. The coordinate y runs from the end of the face that meshes
-        first to the end that leaves the mesh last. The direction of y is -sigma h times the direction of the u axis of
-        the driving gear's shaft. Here sigma is the sense of rotation about this axis, +1 or -1. For the helix of the
-        driving gear, h is +1 if the helix is right-hand, and -1 if it is left-hand.
+        Return None if the sense of rotation is not known. The u axis of the driving gear's shaft points to the end that
+        leaves the mesh last if -sigma h = +1. Here sigma is the sense of rotation about this axis, +1 or -1. For the
+        helix of the driving gear, h is +1 if the helix is right-hand, and -1 if it is left-hand.
         """
         stage = self._stage
         speed = stage.flow.speed.get(stage.shafts[0].id)

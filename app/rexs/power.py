@@ -33,11 +33,11 @@ class Pair(NamedTuple):
 
 @dataclass
 class Flow:
-    """Speeds of shafts and torques of meshes, as far as the file determines these values.
+    """Speeds of shafts and torques of meshes, as far as these values follow from the file.
 
-    `reading` reads the model or the load case that states the load. `speed` maps each shaft to the speed [1/min] about
-    the u axis of the shaft. `mesh_torque` maps each stage to two torques [N m], with which the mesh loads gear 1 and
-    gear 2. Each torque is about the u axis of the gear's shaft.
+    `reading` reads the part of the file that states the load: the model, or one of its load cases. `speed` maps each
+    shaft to its speed [1/min]. `mesh_torque` maps each stage to the torques [N m] with which the mesh loads gear 1 and
+    gear 2. Speeds and torques are about the u axes of the shafts.
     """
 
     reading: Reading
@@ -134,7 +134,10 @@ class Train:
         return speeds
 
     def _spread(self, group: int, speed: float, speeds: dict[int, float]) -> None:
-        """Set the speed of a group, and then the speeds of all groups that meshes connect to this group."""
+        """Set the speed of a group, and the speeds of all groups that meshes connect to this group.
+
+        Speeds that are already set are not changed.
+        """
         speeds[group] = speed
         for pair, place in self._at[group]:
             other = self._group[pair.shafts[1 - place].id]
@@ -142,9 +145,10 @@ class Train:
                 self._spread(other, -speed * pair.teeth[place] / pair.teeth[1 - place], speeds)
 
     def _forces(self, speeds: dict[int, float], reading: Reading) -> dict[int, float]:
-        """Return the torque of each mesh on a gear, divided by the gear's number of teeth [N m].
+        """Return, for each mesh, the torque on a gear divided by the gear's number of teeth [N m].
 
-        Both gears of a mesh have the same quotient. Meshes whose torques do not follow from the file are left out.
+        Both gears of a mesh have the same quotient. If the torques of a mesh do not follow from the file, the mesh is
+        left out.
         """
         torques, opened = self._loads(speeds, reading)
         forces: dict[int, float] = {}
@@ -164,8 +168,7 @@ class Train:
     def _loads(self, speeds: dict[int, float], reading: Reading) -> tuple[dict[int, float], set[int]]:
         """Return the sum of the stated torques on each group [N m], and the set of the groups with an unknown torque.
 
-        A group has an unknown torque if a torque enters or leaves the unit at this group, but the file does not state
-        the value of this torque.
+        At a group with an unknown torque, a torque enters or leaves the unit, but the file does not state its value.
         """
         torques: dict[int, float] = defaultdict(float)
         opened, leaving = set(self._elsewhere), set()
@@ -197,11 +200,11 @@ class Train:
         return {self._group[shaft.id] for shaft in shafts if shaft is not None and shaft.id in self._group}
 
     def _stated_torque(self, load: Component, shaft: Component, speed: float | None, reading: Reading) -> float | None:
-        """Return the torque [N m] of an external load about the axis of the unit, or None if the torque is not stated.
+        """Return the torque [N m] of an external load about the axis of the unit, or None if the torque is not known.
 
-        `shaft` carries the load, and `speed` is the speed of the shaft. If only the power is stated and the speed is
-        known, the torque is computed from the power. This also applies if the load case states only the power and the
-        model states a torque. If the load does not define the torque (`defines_torque`), the result is None.
+        `shaft` carries the load, and `speed` is the speed of the shaft. If the load states only a power, the torque is
+        computed from the power and the speed. A power that the load case states alone takes precedence over a torque in
+        the model. If `defines_torque` of the load is false, the result is None.
         """
         if reading.flag(load, "defines_torque") is False:
             return None

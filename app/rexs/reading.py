@@ -1,7 +1,7 @@
-"""Attributes of a file as numbers in the units of the requests, and the draft of a request.
+"""Numbers from the attributes of a REXS file in the units of the requests, and the draft of a request.
 
-For the answer of /v1/rexs, `Reading` records the faults of the file and the attributes that have been read. `Draft`
-records the missing and the assumed values.
+`Reading` records the faults of the file and the attributes that have been read. `Draft` records the missing and the
+assumed values.
 """
 
 import re
@@ -95,11 +95,10 @@ class Unused(BaseModel):
 
 @dataclass
 class Reading:
-    """Reader of the attributes in a model. The reader also records faults as findings.
+    """Reader of the attributes in a model. The reader also records faults of the file as findings.
 
-    If there is a load case `case`, the attributes of the load case replace the attributes of the model. `used` records
-    which attributes of the model have been read, and `used_of_case` records which attributes of the load case have been
-    read. Both hold pairs: the id of the component and the name of the attribute.
+    The attributes of the load case `case` replace the attributes of the model. `used` and `used_of_case` record which
+    attributes of the model and of the load case have been read, as pairs of component id and attribute name.
     """
 
     model: Model
@@ -109,9 +108,9 @@ class Reading:
     used_of_case: set[tuple[int, str]] = field(default_factory=set)
 
     def in_case(self, case: LoadCase | None) -> "Reading":
-        """Return a reader of the same model in which the values of a load case replace the values of the model.
+        """Return a reader in which the values of a load case replace the values of the model.
 
-        The new reader adds its findings to the findings of this reader.
+        Both readers share one record of findings.
         """
         reading = copy(self)  # the copy keeps the cached directions of the shafts
         reading.case, reading.used_of_case = case, set()
@@ -134,11 +133,11 @@ class Reading:
         self.findings[Fault(code=code, component=id_, attribute=attribute, message=message)] = None
 
     def number(self, component: Component | None, wanted: Row | str, unit: str = "") -> float | None:
-        """Return a number of a component, or None if the file has no such number.
+        """Return the number in an attribute of a component, or None if the file has no usable number.
 
-        `wanted` is a row of the table, or the name of an attribute. The number is converted to the unit of the row, or
-        to `unit`. If the row names several attributes, the first attribute with a usable number counts. If a value is
-        not a number, or if its unit belongs to another quantity, the value is recorded as a finding and is not used.
+        `wanted` is the name of the attribute, or a row of the attribute table. A row may name several attributes: the
+        first attribute with a usable number counts. The number is converted to the unit of the row, or to `unit`. If a
+        value is not a number, or if its unit does not fit, the value is recorded as a finding.
         """
         names, unit = (wanted.attributes, wanted.unit) if isinstance(wanted, Row) else ((wanted,), unit)
         first = self.first_of(component, names, unit)
@@ -287,7 +286,10 @@ class Draft:
         self.note(path, value, reason)
 
     def note(self, path: str, value: Any, reason: str) -> None:
-        """Add a field, its value and the reason for this value to the assumed values. The field is not changed."""
+        """Record a field, its value and the reason for this value among the assumed values.
+
+        The field itself is not changed.
+        """
         self.assumed[path] = AssumedValue(field=path, value=value, reason=reason)
 
     def lacks(self, path: str, component: Component | None, attribute: str | None, message: str) -> None:
@@ -302,7 +304,7 @@ class Draft:
         """Copy a number from the file into a field of the draft.
 
         `row` contains the path of the field, and the names of the attributes of `component` that may contain the
-        number. `prefix` is put before the path. Return the number, or None if the file does not contain the number.
+        number. `prefix` is put before the path of the field. Return the number, or None if there is no usable number.
         """
         number = self.reading.first_of(component, row.attributes, row.unit)
         if component is None or number is None:
@@ -311,11 +313,10 @@ class Draft:
         return number.value
 
     def request(self, endpoint: str, paths: Iterable[str]) -> dict[str, Any]:
-        """Return a request of an endpoint. The request has the fields of the draft that are in `paths`.
+        """Return a request for an endpoint, made from those fields of the draft that are in `paths`.
 
-        Fields that the endpoint does not have are left out. If the endpoint rejects the value of a field, the field is
-        left out and recorded as missing, and a finding gives the reason. If the endpoint requires a field that has no
-        value, the field is recorded as missing.
+        Fields that the endpoint does not have are left out. Fields whose values the endpoint rejects are also left out;
+        a finding gives the reason. Rejected fields and required fields without a value are recorded as missing.
         """
         replaced = endpoint == SCUFFING and SCUFFING_FACTOR in self.fields
         places = {

@@ -82,16 +82,16 @@ def _gear_data(reading: Reading, pair: Pair, gear: Component) -> Iterator[Compon
 class StageDraft(Draft):
     """The draft of one mesh. The pinion is the driving gear, or the smaller gear if the driving gear is not known.
 
-    In `pair`, the gears have the order of the file. `order` holds the position (0 or 1) of the pinion in `pair`, and
-    then the position of the wheel. `driver` is the position of the driving gear in `pair`, or None if the driving gear
-    is not known. `gears`, `shafts` and `teeth` begin with the pinion. The argument `place` of the methods is 0 for the
-    pinion and 1 for the wheel.
+    `pair` has the gears in the order of the file; `gears`, `shafts` and `teeth` begin with the pinion. `order` holds
+    the positions of pinion and wheel in `pair`. `driver` is the position of the driving gear in `pair`, or None if the
+    driving gear is not known. The argument `place` of the methods is 0 for the pinion and 1 for the wheel.
     """
 
     def __init__(self, pair: Pair, flow: Flow, pinion: int | None = None) -> None:
         """Choose the pinion.
 
-        If another draft of the same stage has chosen the pinion, `pinion` is the position of this pinion in `pair`.
+        If another draft of the same stage has already chosen the pinion, `pinion` is the position of this gear in
+        `pair`.
         """
         super().__init__(flow.reading)
         self.flow, self.pair = flow, pair
@@ -145,7 +145,7 @@ class StageDraft(Draft):
         return by_power
 
     def flanks(self, place: int) -> dict[str, Component]:
-        """Map each side, left and right, to the flank of pinion (0) or wheel (1). Absent flanks are left out."""
+        """Return the flanks of pinion (0) or wheel (1) that the file contains. The keys are "left" and "right"."""
         relation = "flank", "gear", self.gears[place].id
         flanks = {side: next(self.reading.model.related(*relation, side), None) for side in ("left", "right")}
         return {side: flank for side, flank in flanks.items() if flank is not None}
@@ -156,7 +156,10 @@ class StageDraft(Draft):
 
     @property
     def load_sources(self) -> set[int]:
-        """The ids of the components whose attributes in a load case are only torques, speeds and shares of time."""
+        """The ids of the gear unit, the shafts and the external loads.
+
+        In a load case, the attributes of these components are only torques, speeds and shares of time.
+        """
         model = self.reading.model
         sources = (model.first("gear_unit"), *model.by_type["shaft"], *model.by_type["external_load"])
         return {source.id for source in sources if source is not None}
@@ -207,10 +210,10 @@ class StageDraft(Draft):
     def position(self, part: Component, shaft: Component) -> float | None:
         """Return the position of the middle of a part along the axis of the pinion's shaft [mm].
 
-        Return None if the position is not known. The file may state the position in two ways: as the origin of the
-        part, which is the middle of the part's width, and as a coordinate on the shaft. If the file states both, the
-        origin is used. If the two positions differ by half the width, the coordinate is the position of an end of the
-        part, and no finding is recorded. If the two positions differ by any other amount, a finding is recorded.
+        The file may state the position in two ways: as the origin of the part, and as a coordinate on the shaft. The
+        origin is the middle of the part. The coordinate may be the middle or an end of the part. If the file states
+        both, the origin is used, and a finding is recorded if the coordinate is neither the middle nor an end. Return
+        None if the position is not known.
         """
         reading = self.reading
         stated = reading.number(part, table.POSITION)
@@ -402,7 +405,7 @@ class StageDraft(Draft):
         """Fill in the coefficients of addendum and dedendum.
 
         The addendum comes from the tip diameter, or else from the basic profile. The dedendum comes from the tool, or
-        else from the root diameter. If the file contains none of these values, profile A of ISO 53 is assumed.
+        else from the root diameter. A coefficient that the file does not determine is assumed by profile A of ISO 53.
         """
         prefix, tool = f"gears.{ROLES[place]}.", self.tool(place)
         path, module = f"{prefix}addendum", self.fields.get(table.MODULE.field)
@@ -425,10 +428,10 @@ class StageDraft(Draft):
         self.assume(path, ISO_53_A[name], f"the file gives no {name}; the value of ISO 53, profile A, is used")
 
     def _of_tool(self, tool: Component | None, row: table.Row, length_row: table.Row) -> float | None:
-        """Return a coefficient of the rack in modules, or None if the file does not state the coefficient.
+        """Return a coefficient of the tool in modules, or None if the file does not determine the coefficient.
 
-        The file may state the coefficient (`row`), or a length (`length_row`). If the file states only the length, the
-        coefficient is the length divided by the module.
+        The file states either the coefficient (`row`), or a length in mm (`length_row`), which is divided by the
+        module.
         """
         coefficient, length = self.reading.number(tool, row), self.reading.number(tool, length_row)
         module = self.fields.get(table.MODULE.field)

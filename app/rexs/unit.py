@@ -32,7 +32,7 @@ The keys are the names of the attributes, and the values are the units of the at
 
 
 def gear_unit(model: Model) -> dict[str, Any]:
-    """Return the answer of /v1/rexs: version, shafts, stages with requests and cases, findings."""
+    """Return the answer of /v1/rexs about the gear unit of a REXS file."""
     reading = Reading(model)
     _check_relations(reading)
     all_pairs = list(islice(pairs(reading), MOST_STAGES + 1))
@@ -62,8 +62,8 @@ def gear_unit(model: Model) -> dict[str, Any]:
 def _stages(reading: Reading, all_pairs: list[Pair], base: Flow, flows: list[Flow]) -> list[dict[str, Any]]:
     """Return the stages in the answer.
 
-    A stage lists the attributes that were not used. A load case may also have unused attributes of components that
-    belong to no stage; every stage lists these attributes.
+    For each stage, the answer lists the attributes of the file that were not used. Some unused attributes belong to a
+    load case, and describe components that are part of no stage. These attributes are listed at every stage.
     """
     rows, parts, all_parts = [], [], set[int]()
     for pair in all_pairs:
@@ -85,10 +85,10 @@ def _stages(reading: Reading, all_pairs: list[Pair], base: Flow, flows: list[Flo
 
 
 def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], StageDraft]:
-    """Return the content of the answer about a stage, and the draft of the stage.
+    """Return the part of the answer that describes a stage, and the draft from which this part is made.
 
-    The requests for the stage need a load. This load is the load that the model states outside the load cases. If there
-    is no such load, the first load case that states a load is used.
+    The requests for the stage need a load. If the file states a load outside the load cases, this load is used.
+    Otherwise, the load of the first load case that states a load is used.
     """
     flow = next((flow for flow in (base, *flows) if flow.knows(pair)), base)
     stage = _draft_of(pair, flow)
@@ -203,9 +203,10 @@ def _rows(models: Iterable[BaseModel]) -> list[dict[str, Any]]:
 
 
 def _shares(readings: list[Reading]) -> tuple[list[float], str | None]:
-    """Return the share of each load case in the operating time, and a remark about the source of the shares.
+    """Return the fraction of the operating time that each load case takes, and a remark.
 
-    If an attribute of the standard states the shares, or if there are no load cases, the remark is None.
+    The remark states the source of the fractions. The remark is None if the fractions are stated by an attribute of the
+    standard, or if there are no load cases.
     """
     if not readings:
         return [], None

@@ -23,9 +23,10 @@ class CouplingDesign(Section, of=si.Coupling, without=("crowning_ratio",)):
     tooth_stiffness_n_per_um: float | None
 
     def stands_for_null(self, name: str) -> Any:
-        """Return the tooth stiffness that follows from the material if `name` is the tooth stiffness, otherwise None.
+        """Return the value that the calculation uses if the field `name` is null.
 
-        The tooth stiffness is needed here because some answers do not contain the tooth stiffness.
+        This value is known only for the tooth stiffness, which follows from the material. Return None for any other
+        field.
         """
         return self.si(si.Coupling).tooth_stiffness * 1e-6 if name == STIFFNESS else None
 
@@ -168,10 +169,10 @@ class SleeveOrbitRequest(CouplingRequest):
         return {"kinematics": self.model.kinematics, "sleeve": "floating"}
 
     def unused(self) -> dict[str, bool]:
-        """Mark the sections `lubricant`, `friction` and `model` and four fields of the coupling as unused.
+        """Mark the inputs that do not affect the orbit of the sleeve as unused.
 
-        These four fields describe the contact and the second mesh. Mark Young's modulus as unused if the tooth
-        stiffness is given.
+        These inputs describe the oil, the friction, the model, the contact and the second mesh. Young's modulus is
+        also unused if the tooth stiffness is given.
         """
         contact = ("face_width_mm", "tooth_height_mm", "poisson_ratio", "hub_distance_mm")
         unused = dict.fromkeys(("lubricant", "friction", "model", *(f"coupling.{name}" for name in contact)), True)
@@ -223,17 +224,17 @@ class CouplingLoadDistribution(Group, of=results.LoadDistribution):
 
 
 class FrictionRegime(Group, of=results.Regime):
-    """An area of the paper's map of friction conditions, and the friction band of this area.
+    """An area of the paper's map of friction conditions, and the range of the coefficient of friction in this area.
 
-    The band has a lower and an upper end. An end that the paper does not state is null.
+    An end of the range is null if the paper does not state this end.
     """
 
 
 class CouplingLubrication(Group, of=results.Lubrication):
     """Contact and film of the most heavily loaded tooth.
 
-    If there are no pitch deviations, the tooth is selected at a rotor angle at which one tooth is in the tilt position.
-    If there are pitch deviations, the tooth is selected among all teeth at all rotor angles of a revolution.
+    Without pitch deviations, the teeth are compared at a rotor angle at which one tooth is in the tilt position. With
+    pitch deviations, the teeth are compared at all rotor angles of a revolution.
     """
 
     views: ClassVar = {
@@ -298,7 +299,10 @@ class CrowningScan(Group, of=crowning.CrowningScan):
 
 
 def _used(name: str, title: str) -> Output:
-    """Return the declaration of the answer field that states the value used for a property of the coupling."""
+    """Declare an answer field that states which value the calculation used for an input of the coupling.
+
+    `name` is the field of this input in the solver's `Coupling`.
+    """
     declared = quantities(si.Coupling)[name]
     return Output(title, declared.symbol, unit=declared.unit, origin=(si.Coupling, name))
 

@@ -248,7 +248,7 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
 
 
 class ShaftAlignment(Section, of=si.Alignment):
-    """Data of the thermal growth of the unit and of the machine: shaft heights and temperature rises.
+    """Shaft heights of the unit and of the machine above their feet, and temperature rises of their supports.
 
     If these data are given, the `offset` of the coupling is the offset of the machine's hub in the cold state.
     """
@@ -397,10 +397,10 @@ class DriveTrainRequest(MeshInOil):
         return super().options() | {"slices": self.model.si(pumping.PumpingModel).slice_count}
 
     def unused(self) -> dict[str, bool]:
-        """Mark further inputs as unused in addition to the inputs that the base class marks.
+        """Mark inputs as unused in addition to the inputs that the base class marks.
 
-        The further inputs are inputs of effects that are switched off, inputs that the heat balance replaces, and two
-        inputs of the cooling.
+        These are inputs of effects that are switched off, inputs that the heat balance replaces, and two inputs of the
+        cooling.
         """
         coupled = self.couplings and self.effects.shafts and self.effects.coupling
         return (
@@ -429,7 +429,7 @@ class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
         return self
 
     def unused(self) -> dict[str, bool]:
-        """Mark the list of states as unused. The mass of the casing is not marked, because a warm-up uses this mass."""
+        """Mark the list of states as unused. Do not mark the mass of the casing, because a warm-up uses this mass."""
         return super().unused() | {"cooling.casing.mass_kg": False, "states": True}
 
     def inputs(self) -> warm_up.WarmUpInputs:  # type: ignore[override]
@@ -443,8 +443,8 @@ class BearingLoad(Group, of=results.BearingResult):
 class ShaftThrust(Group, of=thrust_budget.Thrust):
     """Axial forces on a shaft, positive towards +Z.
 
-    The axial friction force in the couplings has an unknown value and an unknown sign; only its largest possible
-    magnitude is known. The load on the thrust bearing therefore lies between the two bounds `lower_n` and `upper_n`.
+    Of the axial friction force in the couplings, only the largest possible magnitude is known. The load on the thrust
+    bearing therefore lies between the two bounds `lower_n` and `upper_n`.
     """
 
     views: ClassVar = {"use": View(limit=1.0)}

@@ -94,9 +94,9 @@ class Branch:
 def tree(model: type[Documented]) -> Branch:
     """Return the whole request or response as one section without a name.
 
-    If several leaves are declared with the same title, the title of a section is added to the title of each leaf. The
-    section is the innermost section around the leaf whose title does not occur around the other leaves. If there is no
-    such section, nothing is added.
+    If several leaves are declared with the same title, each of these leaves gets the title of a section as a
+    supplement. This is the innermost section whose title distinguishes the leaf from the other leaves. If no section
+    distinguishes the leaf, its title stays as declared.
     """
     namesakes: dict[str, dict[str, list[str]]] = defaultdict(dict)
     for way in _ways(model):
@@ -164,10 +164,10 @@ _Names = tuple[str, ...]
 
 
 def _ways(model: type[Documented], above: _Way = ()) -> Iterator[_Way]:
-    """Yield one way for every field and every section of a model. `above` is the way to the model.
+    """Yield the way to every field and to every section of a model. `above` is the way to the model itself.
 
-    The way to a field lists the sections around the field, the outermost section first. The last item of the way is the
-    field. The way to a section has the same form.
+    A way lists the sections around a field or section, the outermost section first. Its last item is the field or
+    section itself.
     """
     for member in members(model):
         yield (*above, member)
@@ -176,9 +176,10 @@ def _ways(model: type[Documented], above: _Way = ()) -> Iterator[_Way]:
 
 
 def _names(way: _Way, *, solvers: bool = False) -> _Names:
-    """Return the names of the members along a way. After the name of a list, `*` stands for the index.
+    """Return the names of the sections on a way, and the name of the field at its end.
 
-    If `solvers` is set, the names are those of the solver, otherwise the names are those of the interface.
+    A way is the chain of sections that leads to a field. The names are those of the solver if `solvers` is set,
+    otherwise those of the interface. After the name of a list, `*` stands for the index.
     """
     names = ((member.solver_name if solvers else member.name, member.dimensions) for member in way)
     return tuple(part for name, dimensions in names for part in ((name, ITEM) if dimensions else (name,)))
@@ -217,10 +218,9 @@ def _below(model: type[Documented], above: _Way, titles: dict[str, str]) -> tupl
 def _leaf(model: type[Documented], way: _Way, titles: dict[str, str]) -> Leaf:
     """Return the leaf at the end of a way.
 
-    If the field declares a level of detail other than `summary`, the leaf has this level. If the field declares
-    `summary`, the sections around the field are searched from the innermost to the outermost. The leaf has the level of
-    the first section that declares a level other than `summary`. If there is no such section, the leaf has the level
-    `summary`.
+    A way is the chain of sections that leads to a field, and ends with the field. If the field declares the level of
+    detail `summary`, the level comes from the innermost section that declares another level. If there is no such
+    section, the level is `summary`.
     """
     member, path = way[-1], _path(way)
     info, meaning, prefix = member.info, member.meaning, path.rpartition(".")[0]
@@ -269,8 +269,8 @@ def field_path(request: Documented, name: str) -> str | None:
     """Return the dotted path of the request field that a solver calls `name`, or None if no field matches.
 
     `name` is a dotted name of the solver, in which outer sections may be missing. If several fields match, return the
-    path of the outermost field. If fields exclude one another, return the path of the field that was sent. If a list
-    item lacks the field that the solver names, return the path of the list item.
+    path of the outermost field. If the request gives an alternative instead of the field, return the path of the
+    alternative. If the items of a list have no such field, return the path of the list item.
     """
     indices = [part for part in name.split(".") if part.isdecimal()]
     wanted = tuple(ITEM if part.isdecimal() else part for part in name.split("."))
@@ -284,14 +284,14 @@ def field_path(request: Documented, name: str) -> str | None:
 
 @cache
 def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
-    """Return the interface names on the way to the field or list item that a solver calls `wanted`.
+    """Return the interface names of the field or list item that a solver calls `wanted`; None if nothing matches.
 
-    A way matches if its names in the solver contain the names in `wanted` in the same order, if its last name is the
-    last name in `wanted`, and if it has as many lists as `wanted`. If several ways match, return the shortest way.
+    `wanted` may leave out sections. A field matches if its last name in the solver is the last name in `wanted`, if its
+    names contain all names in `wanted` in the same order, and if it has the same number of list indices. If several
+    fields match, the field with the fewest names is taken.
 
-    The solver's inputs may have outer parts that the request does not have. If no way matches, the first names in
-    `wanted` are therefore ignored, one after another, until a way matches. The first name that is not ignored must then
-    be at the root of the request. If no way matches in the end, return None.
+    The solver's inputs may have outer parts that the request lacks. If nothing matches, the outermost names in `wanted`
+    are therefore dropped, one after another. The first remaining name must then be at the root of the request.
     """
     request_names: dict[_Names, _Names] = {}
     for way in _ways(model):
@@ -311,10 +311,11 @@ def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
 
 
 def _sent(request: Documented, path: _Names, indices: Iterator[str]) -> str | None:
-    """Return the dotted path of a field, or None if the request lacks a section or a list item on the path.
+    """Return the dotted path of a request field, with the indices of list items.
 
-    `path` has `*` for the index of each list item; `indices` yields the numbers that replace the `*`. If a field on the
-    path excludes other fields, the result names the field that was sent.
+    `path` has `*` instead of every index, and `indices` yields the indices. If the request gives an alternative
+    instead of a field on the path, the result names the alternative. Return None if the request lacks a section or a
+    list item on the path.
     """
     here: Any = request
     taken: list[str] = []

@@ -84,15 +84,15 @@ class Documented(BaseModel):
     ) -> None:
         """Add the fields that the dataclasses `of` declare.
 
-        If `only` names fields, only these fields are added. Fields in `without` are not added. If a base class already
-        has a field, the field is not changed, unless the class body declares it again.
+        If `only` names fields, only these fields are added. Fields in `without` are not added. A field of a base class
+        is not changed, unless the class body declares it again.
 
-        `of` may list several dataclasses. A request section fills all of them. In a response, the solver's result is an
-        instance of the first dataclass, and members of the result are instances of the other dataclasses. If such a
-        member is None, the response fields that are read from this member are null.
+        If `of` lists several dataclasses, a request section fills all of them. The fields of a response are read from
+        the solver's result (first dataclass) and from members of this result (other dataclasses). If such a member is
+        None, the fields that are read from it are null.
 
-        If `stands` is set and neither `only` nor `without` is given, the model represents its first dataclass. If a
-        field of another model then has this dataclass as its type, this model takes the place of the dataclass.
+        A model with `stands`, without `only` and without `without` represents its first dataclass: other models then
+        use this model wherever a field has this dataclass as its type.
 
         Raises TypeError if two models represent the same dataclass, or if `only` or the class attribute `views` names a
         field that the dataclasses do not declare.
@@ -132,15 +132,14 @@ class Documented(BaseModel):
     @classmethod
     @abstractmethod
     def _filled(cls, kind: Any, record: Any, name: str, names: dict[str, str], *, nullable: bool) -> tuple[Any, Any]:
-        """Return the type and the default of the field that the dataclass `record` declares under `name`.
+        """Return the type and the default of a new field, which the dataclass `record` declares under `name`.
 
-        `names` maps the solver's names to names in the interface. If `nullable` is set, the value of an answer field
-        may be null.
+        `names` maps the solver's names to names in the interface. If `nullable` is True, an answer field may be null.
         """
 
 
 _MODELS: dict[tuple[type, type], type[Documented]] = {}
-"""The model that represents a dataclass in other models. A key is a pair: `Input` or `Output`, and the dataclass."""
+"""The models that represent dataclasses. A key is a pair: `Input` or `Output`, and the dataclass."""
 
 
 def _published(hint: Any, declared: Quantity, declares: type) -> Any:
@@ -186,11 +185,12 @@ def kinds(annotation: Any, lists: int = 0) -> Iterator[tuple[Any, int]]:
 class Member:
     """A field of a model, with its declaration, its types and the corresponding field of a solver's dataclass.
 
-    `meaning` is the declaration. `record` is the dataclass from which the declaration was taken, and `solver_name` is
-    the name of the field in this dataclass. If the declaration was not taken from a dataclass, `record` is None, and
-    `solver_name` is `name` without the unit. `kinds` are the types that a single value of the field may have. If one of
-    these types is a model, the field is a section, and `group` is this model. Otherwise `group` is None. `dimensions`
-    is 0 for a scalar, 1 for a list, 2 for a matrix.
+    `meaning` is the declaration. `record` is the dataclass that contains the declaration, and `solver_name` is the name
+    of the field in this dataclass. If the class body of the model contains the declaration, `record` is None, and
+    `solver_name` is `name` without the unit.
+
+    `kinds` are the types that a single value of the field may have. If the field is a section, `group` is the model of
+    this section; otherwise `group` is None. `dimensions` is 0 for a scalar, 1 for a list, 2 for a matrix.
     """
 
     name: str
@@ -223,8 +223,8 @@ def members(model: type[BaseModel]) -> tuple[Member, ...]:
 def _fillings(model: type[Documented], record: Any) -> tuple[tuple[str, Member, Any], ...]:
     """Return the fields of the dataclass `record` that the section `model` fills.
 
-    Each item has three parts: the name of a field of `record`, the member of `model` from which this field is filled,
-    and the type of this field if the field itself holds a dataclass. Otherwise the third part is None.
+    Each item has three parts: the name of the field, the member of `model` that fills the field, and a dataclass. This
+    dataclass is the type of the field, or None if the field does not hold a dataclass.
     """
     by_solver_name = {
         member.solver_name: member
@@ -258,9 +258,11 @@ def _unchanged(value: Any) -> Any:
 
 
 def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, Any]:
-    """Return the values of a response group that are read from a solver's result. The keys are the names of the fields.
+    """Return the values of a response group, read from a solver's result.
 
-    Each value is in the unit that the name of its field states. Fields above the level of detail are left out.
+    The keys are the names of the response fields.
+
+    Each value is converted into the unit in the name of its field. Fields above the level of detail are left out.
     """
     content: dict[str, Any] = {}
     kind: Any = type(result)
@@ -273,11 +275,10 @@ def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, A
 
 @cache
 def _sources(group: type[Documented], record: Any, detail: Detail) -> tuple[tuple[Member, str | None], ...]:
-    """Return the fields of a response group that are read from a solver's result of the type `record`.
+    """Return pairs for the fields of a response group that are read from a solver's result of the type `record`.
 
-    Fields above the level of detail are left out. Each item is a pair, which begins with the field. If the field is
-    read from a dataclass that is a member of the result, the second part is the name of this member. If the field is
-    read from the result itself, the second part is None.
+    Each pair consists of a response field and a name. The name is the member of the result that holds the value, or
+    None if the result itself holds the value. Fields above the level of detail are left out.
     """
     held = {name: inner for name, hint in get_type_hints(record).items() if (inner := _record_in(hint))}
     sources = []
@@ -329,9 +330,9 @@ class Section(Documented):
 
     @model_validator(mode="after")
     def one_of_each_choice(self) -> Self:
-        """Refuse a request that gives more than one field of a group in `exclusive`.
+        """Refuse a request that gives several fields of a group in `exclusive`.
 
-        If `choice_missing` is set, also refuse a request that gives no field of a group.
+        If `choice_missing` is set, also refuse a request that gives none of the fields of such a group.
         """
         for group in self.exclusive:
             given = [name for name in group if getattr(self, name) is not None]
@@ -344,12 +345,11 @@ class Section(Documented):
         return self
 
     def si(self, kind: type[T], /, *others: "Section", **values: Any) -> T:
-        """Return the solver's dataclass `kind` in SI, filled from this section and from the sections `others`.
+        """Return an object of the solver's dataclass `kind` in SI, filled from this section and the sections `others`.
 
-        If several of these sections have a value for the same field, the value of the first section is used. If a
-        section contains another section, the inner section is converted into the dataclass that is the type of the
-        corresponding field of `kind`. `values` are values in SI that are used unchanged. If `values` and a section have
-        a value for the same field, the value in `values` is used.
+        If several sections fill the same field, the first section is used. An inner section becomes an object of the
+        dataclass that the field of `kind` has as its type. `values` are already in SI and take precedence over all
+        sections.
         """
         return kind(**self.filling(kind, *others, **values))
 
@@ -364,18 +364,16 @@ class Section(Documented):
         return given | values
 
     def unused(self) -> dict[str, bool]:
-        """Return which fields and sections have no effect on the result, given the values of the other fields.
+        """Return the fields and subsections of this section that have no effect, given the values of the other fields.
 
-        The keys are dotted names that start below this section. The value True means that the field or section has no
-        effect.
+        The keys are dotted names that start below this section. The value True means: no effect.
         """
         return {}
 
     def stands_for_null(self, _name: str) -> Any:
-        """Return the value that the calculation uses if the field `_name` is null.
+        """Return the value that the calculation uses if the request leaves the field `_name` null.
 
-        This method returns None, which means that the value is not known. Sections that can determine the value
-        override this method.
+        None means that the value is not known. Sections that know this value override this method.
         """
         return None
 

@@ -25,10 +25,7 @@ RARELY = "by the kind of oil; a data sheet rarely gives it"
 
 
 def _of_a_sheet(name: str, ge: float, le: float, text: str, assumed: str | None = None) -> Input:
-    """Return the declaration of an oil property.
-
-    If a grade or data sheet is given, the property follows from the grade or data sheet.
-    """
+    """Return the declaration of an oil property that follows from the grade or data sheet, if either is given."""
     return Input.of(
         Lubricant,
         name,
@@ -125,8 +122,8 @@ class SheetOil(Section):
     def stands_for_null(self, name: str) -> Any:
         """Return the value that the calculation uses if the field `name` is null.
 
-        The grade or data sheet determines two such values: the viscosity at 100 °C and the density at 15 °C. Return
-        None if `name` is another field, or if neither a grade nor a data sheet is given.
+        The grade or data sheet determines the viscosity at 100 °C and the density at 15 °C. Return None for any other
+        field, or if neither a grade nor a data sheet is given.
         """
         sheet = self.sheet()
         if sheet and name == "kinematic_viscosity_100_mm2_per_s":
@@ -196,9 +193,9 @@ class Oil(SheetOil, of=Lubricant):
     @model_validator(mode="before")
     @classmethod
     def properties_follow_the_sheet(cls, given: Any) -> Any:
-        """Use null as the default of the oil's properties, unless the viscosity alone describes the oil.
+        """Use null as the default of the oil's properties, so that they follow from the grade or data sheet.
 
-        If a grade or data sheet is given, each property that is null follows from the grade or data sheet.
+        Keep the other defaults if only the viscosity describes the oil.
         """
         if not isinstance(given, dict) or (given.get("viscosity_pa_s") is not None and not _names_a_sheet(given)):
             return given
@@ -206,7 +203,10 @@ class Oil(SheetOil, of=Lubricant):
 
     @model_validator(mode="after")
     def one_reference(self) -> Self:
-        """Refuse a density if a grade or data sheet is given. Refuse a null property if a viscosity is given."""
+        """Refuse a density together with a grade or data sheet.
+
+        Also refuse a property that is null if the oil is described by its viscosity.
+        """
         if self.by_sheet and self.density_kg_per_m3 is not None:
             raise PydanticCustomError(
                 "exclusive",
@@ -234,10 +234,7 @@ class Oil(SheetOil, of=Lubricant):
         return self.by_sheet or self.viscosity_pa_s is not None
 
     def unused(self) -> dict[str, bool]:
-        """Mark reference temperature and density as unused if a grade or data sheet is given.
-
-        The kind of oil is not marked here, because its use depends on other sections of the request.
-        """
+        """Mark reference temperature and density as unused if a grade or data sheet is given."""
         return super().unused() | dict.fromkeys(("reference_temperature_c", "density_kg_per_m3"), self.by_sheet)
 
 

@@ -55,7 +55,7 @@ class _PumpingSetup(Request, of=si.PumpingSetup, without=("normal_backlash",)):
     def assumed_by_the_model(self) -> dict[str, str]:
         """Return the assumption that only the axial speed contributes to the stagnation temperature.
 
-        The incompressible model does not make this assumption.
+        For the incompressible model, return no assumption.
         """
         return {} if self.model.flow == "incompressible" else {"model.flow": AXIAL_SPEED_ONLY}
 
@@ -79,9 +79,9 @@ class ChokingSpeedRequest(_PumpingSetup, of=si.ChokingInputs):
 class PumpingMassFlow(Group, of=results.MassFlow):
     """Mass flow out of the tooth spaces of one gear.
 
-    `front`, `rear`, `radial`, `grooves` and `reset` are the net flows through the different exits. These five flows add
-    up to zero. Fields that end in `_out` and `_in` are the outflow and the inflow at each end of the face. Fields that
-    end in `_uncertainty` are the uncertainties of net flows.
+    `front`, `rear`, `radial`, `grooves` and `reset` are net flows that add up to zero. `reset` belongs to no exit. It
+    is gas that is given back when the stroke of a slice ends and begins. Fields that end in `_out` and `_in` are the
+    outflow and the inflow at each end of the face. Fields that end in `_uncertainty` are uncertainties of net flows.
     """
 
     member_unit: ClassVar = "g_per_s"

@@ -19,12 +19,11 @@ Bound = Literal["upper", "lower"]
 
 @dataclass(frozen=True)
 class _Declaration(Quantity):
-    """A declaration that documents its field in the JSON schema.
+    """The title, unit and other properties of a field, which are written into the JSON schema.
 
-    If the declaration was taken from a dataclass of a solver, `origin` is a pair: this dataclass, and the name of the
-    field in this dataclass. If the declaration was not taken from a dataclass, `origin` is None. `in_schema` lists the
-    attributes of the declaration that are written into the JSON schema. For example, `default_text` is written as
-    `x-default-text`.
+    A declaration can be a copy from a solver's dataclass. `origin` then holds this dataclass and the name of the field
+    in it; otherwise `origin` is None. `in_schema` lists further attributes that are written into the JSON schema. For
+    example, `default_text` is written as `x-default-text`.
     """
 
     origin: tuple[type, str] | None = None
@@ -32,15 +31,12 @@ class _Declaration(Quantity):
 
     @classmethod
     def of(cls, record: type, name: str, **changes: Any) -> Self:
-        """Return the declaration of the field `name` of a solver's dataclass.
-
-        `changes` replace attributes of this declaration.
-        """
+        """Copy the declaration of the field `name` from a solver's dataclass. `changes` replace attributes."""
         return cls(**vars(quantities(record)[name]) | {"origin": (record, name)} | changes)
 
     @property
     def description(self) -> str:
-        """The text, or the title if there is no text, followed by the meaning of null if `default_text` states one."""
+        """Description of the field in the JSON schema: text or title, then the meaning of null if it is declared."""
         text = self.text or self.title
         return f"{text}; null: {self.default_text}" if self.default_text else text
 
@@ -97,18 +93,16 @@ class Input(_Declaration):
 
 @dataclass(frozen=True)
 class View:
-    """The way in which a result is judged.
+    """How pages show and judge a result.
 
-    `headline` is the rank of the result among the headline numbers, from 1 to 4. `limit` is the number with which the
-    value is compared. Instead of a number, `limit` may be the dotted name of the request or answer field that holds
-    this number. If `bound` is "upper", values below the limit are safe. If `bound` is "lower", values above the limit
-    are safe.
+    `headline` is the rank of the result among the headline numbers, from 1 to 4. `limit` is a number, or the dotted
+    name of the request or answer field that holds the number. If `bound` is "upper", results below the limit are safe.
+    If `bound` is "lower", results above the limit are safe.
 
-    `needs` is the name of a request field. If this field is not given, the result has no value. `verdict` is the name
-    of the answer field that judges the value. The verdict is a word, or a boolean that is true if the value is bad. If
-    the name in `verdict` begins with a dot, the field is in the same section as the value. `band` is the name of the
-    answer field that holds the two ends of the value's range of uncertainty. Pages judge the worse end. If `percent` is
-    set, the value is a fraction that pages show in per cent.
+    `needs` names the request field without which there is no result. `verdict` names the answer field that judges the
+    result: by a word, or by a boolean that is true if the result is bad. A name that begins with a dot refers to a
+    field in the section of the result. `band` names the answer field with the two ends of the uncertainty band; pages
+    judge the worse end. If `percent` is set, pages show the result in per cent.
     """
 
     headline: int | None = None
@@ -121,7 +115,7 @@ class View:
 
     @property
     def greatest_is_best(self) -> bool:
-        """Whether the limit is a lower limit, so that greater values are better."""
+        """True if the limit is a lower limit: greater values are then better."""
         return self.bound == "lower"
 
 

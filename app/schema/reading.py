@@ -53,8 +53,7 @@ def faults(model: type[BaseModel], items: Iterable[dict[str, Any]]) -> list[Faul
 def _located(model: type[BaseModel], location: tuple[str | int, ...]) -> tuple[list[str | int], Models]:
     """Return the location of a fault, and the sections that may hold the field at this location.
 
-    If a value may have several types, pydantic adds the name of a type to the location. The returned location does not
-    contain such names.
+    If a field accepts several types, pydantic adds the name of a type to the location. These names are removed here.
     """
     kept: list[str | int] = []
     here: Models = (model,)

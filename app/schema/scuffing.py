@@ -414,10 +414,10 @@ def _is_given(sent: Any, path: str) -> bool:
 class MeshInOil(Request):
     """The parts that requests about scuffing have in common: a loaded pair, an oil, temperatures, a law of friction.
 
-    Some values are either given in the request or computed by a method. One field chooses the method, and other fields
-    hold the given value. `methods` maps the first field to the other fields. For example, `model.friction` chooses the
-    method for the coefficient of friction, and `friction_coefficient` holds a given coefficient. If a request gives
-    such a value but does not choose the method, the method is set to "given".
+    A request either gives a value or chooses a method that computes the value. For example, `model.friction` chooses
+    the method for the coefficient of friction, and `friction_coefficient` holds a given coefficient. `methods` maps the
+    field for the method to the fields for given values. If a request gives such a value but does not choose the method,
+    the method is set to "given".
     """
 
     balance_is_default: ClassVar = False  # whether the heat balance is the default at low speeds, too
@@ -429,7 +429,7 @@ class MeshInOil(Request):
     @model_validator(mode="before")
     @classmethod
     def methods_of_given_values(cls, sent: Any) -> Any:
-        """Set a method to "given" if the request gives a value for the method, but not the method itself."""
+        """Set a method to "given" if the request gives the value but does not choose a method."""
         for method, values in cls.methods.items() if isinstance(sent, dict) else ():
             section, name = method.split(".")
             held = sent.get(section, {})
@@ -512,11 +512,7 @@ class MeshInOil(Request):
         return self.micropitting is not None and not relief and self.gears.helix_angle_deg == 0.0
 
     def unused(self) -> dict[str, bool]:
-        """Mark inputs as unused if they have no effect in this case.
-
-        Inputs can have no effect for four reasons: there is no oil, the film is computed in closed form, the film of
-        the standard is not computed, or the bulk temperature does not come from the heat balance.
-        """
+        """Mark the inputs that have no effect in this case, for example the film's inputs if no oil is given."""
         dry, standard = not self.lubricant.known, self._standard_film_asked
         no_film = dry or self.model.lubrication == "closed_form"
         of_the_film = (name for name in Micropitting.model_fields if not name.startswith("wear"))
@@ -570,10 +566,7 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
         return self.gears.si(GearPairInputs), self.load.si(si.Load)
 
     def unused(self) -> dict[str, bool]:
-        """Mark two inputs as unused in addition to the inputs that the base class marks.
-
-        The two inputs are the film share of the bearings and the mass of the casing. Only gear units use these inputs.
-        """
+        """Mark also the film share of the bearings and the mass of the casing, which only gear units use."""
         of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg")
         return super().unused() | dict.fromkeys(of_a_unit, True)
 
@@ -589,9 +582,10 @@ class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, Oi
 
 
 def how_well_known(response: Response, *paths: str) -> dict[str, str]:
-    """Return the remark about the uncertainty of temperatures, for each of the `paths`.
+    """Return a remark that the temperatures at these `paths` are uncertain.
 
-    There is no remark if a gear temperature was measured, or if there is no heat balance.
+    The remark is given if the temperatures follow from a heat balance and no gear temperature was measured. Otherwise
+    the result is empty.
     """
     return dict.fromkeys(paths, KNOWN) if NOT_VALIDATED in {notice.code for notice in response.warnings} else {}
 

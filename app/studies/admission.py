@@ -22,9 +22,9 @@ logger = logging.getLogger("tribodrive")
 
 
 class StudyPool:
-    """The pool through which one study uses the service's own workers.
+    """The workers of the service, as used by one study.
 
-    The study counts as one client of the workers, and gets the same share of the workers as any other client.
+    All studies and all other clients get equal shares of the workers.
     """
 
     def __init__(self, workers: WorkerPool) -> None:
@@ -40,10 +40,7 @@ class StudyPool:
 
 
 class StudyAdmission:
-    """The gate through which every study passes before it starts.
-
-    The gate limits the number of studies that run at once, and chooses the pool that solves the points of a study.
-    """
+    """Limit on the number of studies that run at once, and choice of the workers for a study."""
 
     def __init__(self, settings: Settings, workers: WorkerPool) -> None:
         self._settings = settings
@@ -68,16 +65,17 @@ class StudyAdmission:
             self._running -= 1
 
     def own(self) -> Pool:
-        """Return a pool through which one study uses the service's own workers.
+        """Return the workers of the service, for use by one study.
 
-        These workers draw the figures of the study, even if a cluster solves the points of the study.
+        The figures of a study are drawn by these workers, even if a cluster solves the points of the study.
         """
         return StudyPool(self._workers)
 
     async def pool(self) -> Pool:
-        """Return the pool that solves the points of a study: the cluster if there is one, else the service's workers.
+        """Return the pool that solves the points of a study.
 
-        Raises SchedulerUnavailable if the cluster cannot be used.
+        The pool is the cluster if the settings name a cluster, and otherwise the workers of the service. Raises
+        SchedulerUnavailable if the cluster cannot be used.
         """
         if self._cluster is None:
             return self.own()
@@ -85,7 +83,7 @@ class StudyAdmission:
 
     @asynccontextmanager
     async def open(self) -> AsyncIterator[None]:
-        """Prepare the cluster in the background, so that the first study need not wait for the preparation.
+        """Connect to the cluster in the background, so that the first study need not wait for the connection.
 
         Disconnect from the cluster when the context closes.
         """

@@ -43,9 +43,9 @@ class DaskCluster:
     async def ready(self) -> "DaskCluster":
         """Wait until the cluster is connected and every worker is prepared, and return the cluster.
 
-        Raises SchedulerUnavailable if the scheduler cannot be used, if the scheduler does not answer in time, or if the
-        preparation of the workers takes too long. If the reason is that time ran out, the preparation continues after
-        the error, because a call to the scheduler cannot be cancelled. Only one preparation runs at a time.
+        Raises SchedulerUnavailable if the scheduler cannot be used or does not answer in time, or if the preparation of
+        the workers takes too long. A call to the scheduler cannot be cancelled. When time runs out, the preparation
+        therefore continues after the error. Only one preparation runs at a time.
         """
         if self._preparation is None or self._preparation.done():
             self._answered = False
@@ -68,10 +68,9 @@ class DaskCluster:
             raise SchedulerUnavailable(f"The Dask scheduler cannot be used: {reason}") from error
 
     def _prepare(self) -> None:
-        """Connect to the scheduler and prepare every new worker.
+        """Connect to the scheduler, check the versions of all new workers, and load the kernels in these workers.
 
-        To prepare the new workers, first check the versions of all new workers, and then load the kernels in each of
-        them. This call blocks.
+        This call blocks.
         """
         if self._client is None or self._client.status != "running":
             self.close()
@@ -135,9 +134,9 @@ def prepare() -> None:
 def solved_with(sources: str, function: Callable[..., Any], *arguments: Any) -> Any:
     """Call a function in a worker of the cluster and return the result of the function.
 
-    `sources` is the hash of the source code of the service's solvers; the answers contain this hash. Raises
-    OtherSources if the worker's solvers have another hash. The check is made at every call, because a worker may join
-    the cluster during the study.
+    `sources` is the hash of the source code of the service's solvers, which is part of the answers. Raises OtherSources
+    if the worker's solvers have another hash. Every call checks the hash, because a worker may join the cluster during
+    the study.
     """
     if sources != SOURCES:
         raise OtherSources(

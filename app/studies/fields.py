@@ -18,9 +18,9 @@ NUMBERS = frozenset({"number", "integer"})
 def scalar_at(model: type[Documented], path: str, place: str, unknown: str) -> Leaf:
     """Return the `Leaf` that describes the single value at a path of a request or answer.
 
-    Raises Unprocessable with the code `not_scalar` if the path names a section or a list. Raises Unprocessable with the
-    code in the argument `unknown` if the path does not exist. The error is located at `place`, a dotted path in the
-    body of the study.
+    Raises Unprocessable with the code `not_scalar` if the path names a section or a list, and with the code `unknown`
+    if the path does not exist. `place` is the field of the study's body that contains the path; the error names this
+    field.
     """
     leaf = leaf_at(model, path)
     whole, _, item = path.rpartition(".")
@@ -113,10 +113,9 @@ def is_number(value: Any) -> bool:
 def set_value(model: type[Documented], body: dict[str, Any], path: str, value: Scalar) -> None:
     """Set the value at a dotted path of a request.
 
-    If a section on the path is missing, an empty section is inserted. If a list on the path is missing, a list with the
-    default items is inserted. Raises IndexError if a list on the path is too short. If the request holds something else
-    where the path needs a section or a list, the value is not set. The later validation of the request reports this
-    error.
+    Missing sections on the path are inserted empty. Missing lists on the path are inserted with their default items.
+    If the path does not fit the request, the value is not set; the later validation of the request reports the error.
+    Raises IndexError if a list on the path is too short.
     """
     parts = path.split(".")
     here: Any = body
@@ -146,10 +145,9 @@ def clear_excluded(model: type[Documented], body: dict[str, Any], path: str) -> 
 
 
 def indexed(path: str, case: dict[str, Any]) -> list[str]:
-    """Return the paths that result if indices replace the list markers in a path.
+    """Replace every list marker in a path by the indices of the list, and return the resulting paths.
 
-    A path has one marker per list. If the path has a single marker, the result has one path per item of the list. If
-    the path has several markers, the result has one path per item of the innermost lists.
+    A path without a marker is returned unchanged.
     """
     before, star, after = path.partition(f".{ITEM}")
     if not star:

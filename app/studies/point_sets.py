@@ -73,7 +73,7 @@ class PointSet(NamedTuple):
 
 
 def _values_of_fields(value: Scalar | list[Scalar], leaves: tuple[Leaf, ...]) -> list[Scalar]:
-    """Convert a value of an axis into one value per field of the axis."""
+    """Return one value per field of an axis: the values of the list, or else the same value for all fields."""
     return value if isinstance(value, list) else [value] * len(leaves)
 
 
@@ -89,8 +89,8 @@ def listed(cases: list[Overrides], base: BaseRequest, most: int, place: str) -> 
 def fields_set(cases: Sequence[Overrides], base: BaseRequest, place: str) -> dict[str, Leaf]:
     """Return the fields that the cases set. The keys are the paths of the fields.
 
-    Raises Unprocessable if a path does not exist or if a field does not accept a value. The location of the error is
-    the text `place`, in which the index of the case replaces `{}`.
+    Raises Unprocessable if a path does not exist or if a field does not accept a value. The error is located at
+    `place`, in which `{}` stands for the index of the case.
     """
     fields: dict[str, Leaf] = {}
     for number, case in enumerate(cases):
@@ -144,9 +144,8 @@ def _check_axis(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
 def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Any]:
     """Return the values of an axis from start to stop.
 
-    The values have equal steps on a linear axis, and equal ratios on a logarithmic axis. Raises Unprocessable if a
-    field does not accept one of the ends, start or stop. Also raises Unprocessable if the axis is logarithmic and one
-    of the ends is not positive. The error is located at the faulty end.
+    The values have equal steps on a linear axis, and equal ratios on a logarithmic axis. Raises Unprocessable at start
+    or stop if a field does not accept this end, or if this end of a logarithmic axis is not positive.
     """
     ends: dict[str, Any] = {"start": axis.start, "stop": axis.stop}
     for name, end in ends.items():
@@ -194,11 +193,10 @@ def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: st
 
 
 def _check_digits(scatter: Range | Scatter, leaf: Leaf, place: str) -> None:
-    """Raise Unprocessable if almost all of a normal distribution lies outside the range of its field.
+    """Raise Unprocessable if almost no values of a normal distribution lie in the permissible range of the field.
 
-    The random values inside the range are computed from cumulative probabilities. If the share of the distribution
-    inside the range is smaller than `LEAST_SHARE`, these values have fewer than six correct digits because of rounding
-    errors.
+    If the probability of this range is below `LEAST_SHARE`, rounding errors leave fewer than six correct digits in the
+    random values.
     """
     if isinstance(scatter, Normal) and 1.0 - cut(scatter, leaf).cut_off < LEAST_SHARE:
         message = (
@@ -210,7 +208,7 @@ def _check_digits(scatter: Range | Scatter, leaf: Leaf, place: str) -> None:
 
 
 def anchors(scatter: Range | Scatter) -> dict[str, float]:
-    """Return those parameters of a distribution that must be permissible values of the field.
+    """Return the parameters of a distribution that must be permissible values of its field, such as the mean.
 
     The keys are the names of the parameters. In a valid distribution, the returned parameters are in ascending order.
     """
@@ -218,7 +216,7 @@ def anchors(scatter: Range | Scatter) -> dict[str, float]:
 
 
 class Cut(NamedTuple):
-    """A distribution of SciPy that is cut off at two ends."""
+    """A distribution of SciPy that is cut off below `low` and above `high`."""
 
     law: Any
     low: float
@@ -226,19 +224,19 @@ class Cut(NamedTuple):
 
     @property
     def shares(self) -> tuple[float, float]:
-        """The cumulative probabilities of the uncut distribution at `low` and at `high`."""
+        """The cumulative probabilities at `low` and at `high` of the distribution before the cut."""
         return float(self.law.cdf(self.low)), float(self.law.cdf(self.high))
 
     def drawn(self, share: FloatArray) -> FloatArray:
-        """Return the values at the cumulative probabilities `share` of the cut distribution."""
+        """Return the values of the cut distribution at given cumulative probabilities."""
         low, high = self.shares
         return np.asarray(np.clip(self.law.ppf(low + (high - low) * share), self.low, self.high))
 
     @property
     def cut_off(self) -> float:
-        """The share of the uncut distribution below `low` and above `high`.
+        """The probability that a value of the distribution before the cut lies below `low` or above `high`.
 
-        The share is 0 if `low` and `high` are equal, because the field then has a fixed value.
+        If `low` and `high` are equal, the field has a fixed value, and the result is 0.
         """
         low, high = self.shares
         return low + 1.0 - high if self.low < self.high else 0.0
@@ -298,9 +296,9 @@ def unit_cube(method: Method, count: int, dimensions: int, seed: Any, place: str
 
 
 def usual_corners(request: Request) -> dict[str, Axis]:
-    """Return one axis for each uncertain input of a gear unit. The axis has the usual values of this input.
+    """Return an axis with the usual values for each uncertain quantity of a gear unit.
 
-    The keys are the names of the uncertain quantities, such as "friction".
+    The keys are the names of the quantities, such as "friction".
     """
     axes = {}
     for uncertain in uncertain_inputs(request.inputs()):

@@ -41,7 +41,7 @@ class Point(NamedTuple):
 
     `out` holds the values of the requested outputs. `error` is set if the point was refused or failed. `warnings` holds
     the codes of the warnings, the gravest warning first; `ranks` holds the ranks of these warnings in the same order.
-    `assumptions` is empty if the assumptions are the same as at the preceding point of the chunk.
+    `assumptions` is left empty if it would repeat the assumptions at the preceding point of the chunk.
     """
 
     status: Status
@@ -61,15 +61,15 @@ class Question(NamedTuple):
     deadline_s: float
 
     def failed(self, code: str, message: str) -> Point:
-        """Return a point with status `failed`. The reason for the failure is not a fault in the point's request."""
+        """Return a point with status `failed`. This status means that the request is not to blame."""
         return Point("failed", [None] * len(self.outputs), [], {"pointer": "", "code": code, "message": message})
 
 
 class BaseRequest(NamedTuple):
     """An endpoint, and the request to this endpoint that a study varies.
 
-    A method that takes a path raises Unprocessable if the path cannot be used. The argument `place` of the method
-    states where the path is in the body of the study. The error names this location.
+    Some methods take a path, and raise Unprocessable if the path cannot be used. The argument `place` states where the
+    body of the study gives this path; the error reports this location.
     """
 
     calculation: Calculation
@@ -78,8 +78,8 @@ class BaseRequest(NamedTuple):
     def leaf(self, path: str, place: str) -> Leaf:
         """Return the `Leaf` that describes the single value at a path of the request.
 
-        Raises Unprocessable if the path cannot be used, or if a list on the path is too short for the index in the
-        path.
+        Raises Unprocessable if the path cannot be used, for example because an index in the path is beyond the end of a
+        list.
         """
         leaf = scalar_at(self.calculation.request, path, place, "unknown_path")
         try:
@@ -110,9 +110,8 @@ class BaseRequest(NamedTuple):
     def checked(self, first: Overrides) -> Request:
         """Return the validated request of the first point. `first` holds the values that this point changes.
 
-        Raises InvalidBody if the schema does not allow the request; the pointers of the error are locations in the body
-        of the study. The checks of the solver are made later: if the solver refuses the request, the study goes on, and
-        only this point is refused.
+        Raises InvalidBody if the schema does not allow the request. The locations in the error are locations in the
+        body of the study.
         """
         try:
             return validated(self.calculation.request, with_overrides(self.calculation, self.body, first))
@@ -128,9 +127,10 @@ def check_count(count: int, most: int, place: str) -> None:
 
 
 def check_distinct(paths: Sequence[str], place: str, *, numbered: bool = False) -> None:
-    """Raise Unprocessable at `place` if a path is given twice.
+    """Raise Unprocessable if a path is given twice.
 
-    If `numbered` is True, the location of the error is `place` followed by the index of the second occurrence.
+    The location of the error is `place`. If `numbered` is True, the index of the second occurrence is added to this
+    location.
     """
     for number, path in enumerate(paths):
         if path in paths[:number]:
@@ -143,10 +143,9 @@ def needs_film(endpoint: str, output: str) -> bool:
 
 
 def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[str]) -> dict[str, Any]:
-    """Return a request with fewer calculations. The values of the outputs do not change.
+    """Return a request that leaves out calculations that no output needs.
 
-    If no output needs the thermal film, the film is left out. If no output needs the gear unit in the cold state, this
-    state is left out.
+    These calculations are the thermal film and the gear unit in the cold state.
     """
     if endpoint not in BY_FILM:
         return request

@@ -108,10 +108,9 @@ async def in_order(
 ) -> AsyncGenerator[tuple[range, list[Point]], None]:
     """Solve the points with the given indices. Yield pairs: a range of indices, and the solved points of this range.
 
-    The pairs are yielded in the order of the indices. `overrides` maps the index of a point to the values that the
-    point changes in the request `question.base`. If a chunk loses its process or exceeds the deadline, the points of
-    the chunk are solved again one by one. If the caller leaves the iteration, chunks that have not begun are
-    cancelled. Chunks that have begun run to their end, but nobody waits for their results.
+    The pairs are yielded in the order of the indices. `overrides` returns the values that a point changes in the
+    request `question.base`. If a chunk loses its process or exceeds the deadline, its points are solved again one by
+    one. If the caller leaves the iteration, chunks that have not begun are cancelled.
     """
 
     def submit(some: range) -> tuple[range, asyncio.Future[Chunk]]:
@@ -146,8 +145,8 @@ async def in_order(
 async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrides], error: Exception) -> Chunk:
     """Solve the points of a chunk again, one by one, after the chunk failed with `error`.
 
-    A point is repeated once if its process is lost. If the chunk has only one point and this point exceeded its
-    deadline, the point is not solved again.
+    If the process that solves a point is lost, the point is repeated once. A point that was alone in its chunk and
+    exceeded its deadline is not solved again.
     """
     late = question.failed("deadline_exceeded", "this point took longer than the time limit of one calculation")
     if len(overrides) == 1 and isinstance(error, DeadlineExceeded):
@@ -169,9 +168,9 @@ class Study(ABC):
 
     The docstring of a subclass is the description of the study's endpoint in the API. A worker constructs the study.
     The arguments are the content of the body (JSON objects or the validated model), the largest number of points, and
-    the deadline of a point [s]. If a check fails, the constructor raises InvalidBody or Unprocessable, with the
-    location of the fault in the body. `outputs` describes the first columns of `Point.out`; a subclass may add further
-    columns.
+    the deadline of a point [s]. If a check fails, the constructor raises InvalidBody or Unprocessable. The error names
+    the location of the fault in the body. `outputs` describes the first columns of `Point.out`. A subclass may add
+    further columns.
     """
 
     path: ClassVar[str]  # path of the study's endpoint; its last part is also the type of the first line
@@ -209,9 +208,9 @@ class Study(ABC):
 
     @abstractmethod
     def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """Yield all lines of the study except the lines of progress that `guarded` adds.
+        """Yield the lines of the study's answer in groups. A group is yielded as soon as its lines are known.
 
-        The lines come in groups. A group is yielded as soon as its lines are known.
+        `guarded` adds the lines of progress.
         """
 
     def encoder(self, _: str) -> Callable[[Line], bytes]:
@@ -231,7 +230,7 @@ class Study(ABC):
 
 
 def output_header(leaf: Leaf) -> Line:
-    """Return the path, the unit and the title of an output or input, as the lines of a study state them."""
+    """Return the path, the unit and the title of an output or input, for a line of a study's answer."""
     return {"path": leaf.path, "unit": leaf.unit, "title": leaf.title}
 
 
@@ -248,8 +247,8 @@ def point_line(index: int, at: Any, point: Point) -> Line:
 class Tally:
     """Counter of the points of a study per status, and of the errors and warnings per code.
 
-    The tally also collects the assumptions and stores outputs. `assumptions` maps each assumed field to its assumption.
-    If different points assume different values for a field, the `value` in the assumption is None.
+    The tally also collects the assumptions and stores outputs. The keys of `assumptions` are the names of the fields.
+    If the assumed value of a field differs between points, the `value` of its assumption is None.
     """
 
     def __init__(self, outputs: Sequence[str]) -> None:
@@ -282,7 +281,7 @@ class Tally:
 
 
 async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float = PROGRESS_S) -> Lines:
-    """Yield the lines of a study. If no line comes for `progress_s` seconds, yield a line of progress.
+    """Yield the lines of a study's answer. If no line comes for `progress_s` seconds, yield a line of progress.
 
     If the study fails, or if the study takes longer than `seconds`, the last line is an error.
     """
@@ -312,7 +311,7 @@ async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float 
 
 
 async def encoded(lines: Lines, encode: Callable[[Line], bytes]) -> AsyncGenerator[bytes, None]:
-    """Convert lines into bytes. Yield one bytes object per group of lines, and nothing for an empty group."""
+    """Convert groups of lines into bytes. Yield one bytes object per group, and nothing for an empty group."""
     async with aclosing(lines):
         async for group in lines:
             if piece := b"".join(map(encode, group)):

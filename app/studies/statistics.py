@@ -71,9 +71,9 @@ class Mean(NamedTuple):
 class Estimate(NamedTuple):
     """A probability that a limit is exceeded.
 
-    A draw is unsolved if one of its cases has no solution. The lower of the `bounds` is the probability from the solved
-    cases alone. The upper bound counts every unsolved draw as beyond the limit. If the bounds differ, `probability` is
-    None. `risk` is the class of risk that belongs to the upper bound.
+    A draw (one machine) is unsolved if one of its cases has no solution. For the lower of the `bounds`, such a draw is
+    judged by its solved cases alone. For the upper bound, every unsolved draw is beyond the limit. If the bounds
+    differ, `probability` is None. `risk` is the class of risk of the upper bound.
     """
 
     probability: float | None
@@ -126,16 +126,15 @@ def of_case(outputs: FloatArray, limit: Limit) -> Estimate:
 def _chances(chances: FloatArray, limit: Limit) -> Mean:
     """Return the mean of the draws' probabilities `[replicate, draw]`, with a confidence interval between 0 and 1.
 
-    The interval usually follows from the scatter of the replicates. If the limit is fixed, every draw is either beyond
-    the limit or within the limit. The probability of a draw is then 1 or 0, and the mean is the share of draws beyond
-    the limit. The scatter of the replicates is not used for a fixed limit if one of these conditions is met:
+    The interval usually follows from the scatter of the replicates. If the limit is fixed, the probability of a draw is
+    1 beyond the limit and 0 within the limit. The interval of Clopper and Pearson for a count is then used instead if
+    one of these conditions is met:
 
     - The number of draws beyond the limit is smaller than the number of replicates.
     - The number of draws within the limit is smaller than the number of replicates.
     - Every replicate has the same number of draws beyond the limit.
 
-    In these three situations, the interval of Clopper and Pearson for a count is used instead. If no draw or every draw
-    is beyond the limit, this interval is one-sided and has the width 1 - 0.1^(1/draws).
+    If no draw or every draw is beyond the limit, this interval is one-sided and has the width 1 - 0.1^(1/draws).
     """
     from scipy.stats import binomtest  # noqa: PLC0415  half a second that only studies need
 
@@ -154,10 +153,10 @@ def _chances(chances: FloatArray, limit: Limit) -> Mean:
 
 
 def deciding(outputs: FloatArray, limit: Limit) -> list[float] | None:
-    """Return for each case the share of draws in which this case is the worst case.
+    """Return, for each of the cases, the fraction of draws in which this case is the worst.
 
-    If several cases of a draw are equally bad, the draw is divided equally among them. Only draws with a solution in
-    every case count. The result is None if there are no such draws.
+    A draw is one machine, which runs every case. If several cases of a draw are equally bad, the draw is divided
+    equally among them. Draws with an unsolved case are left out. If no draws remain, the result is None.
     """
     complete = outputs[~np.isnan(outputs).any(axis=-1)]
     if not complete.size:

@@ -47,7 +47,7 @@ class Job:
 
 
 class Pool:
-    """The workers and their calls. Each worker loads `modules` before its first call."""
+    """Worker processes, and the queue of their calls. Each worker loads `modules` before its first call."""
 
     def __init__(self, settings: Settings, modules: Sequence[str]) -> None:
         self.size = settings.workers
@@ -77,9 +77,9 @@ class Pool:
         return job.outcome
 
     def _admit(self, owner: Hashable) -> None:
-        """Raise QueueFull if the queue is full, unless another client has at least two calls more than `owner`.
+        """Raise QueueFull if the queue is full.
 
-        Waiting and running calls count.
+        A client is nevertheless admitted if another client has at least two more waiting and running calls.
         """
         places = Counter(job.owner for job in (*self._running, *self._waiting) if job.is_single)
         if places.total() >= self.size + self._settings.queue and max(places.values()) <= places[owner] + 1:
@@ -96,8 +96,8 @@ class Pool:
     async def keep_workers(self) -> None:
         """Start the workers, check idle workers, and replace lost workers.
 
-        The first worker starts alone, so that it is ready soon. All idle workers are checked at the same time. AnyIO
-        would give successive checks to the same worker, and end the other workers.
+        The first worker starts alone, so that it is ready soon. All idle workers are checked at the same time, because
+        AnyIO would give successive checks to the same worker.
         """
         count = 1
         while True:

@@ -56,8 +56,8 @@ class StartUp:
     async def _compile(self, stages: Sequence[Stage]) -> bool:
         """Run `tribodrive compile` and read the printed progress. Return False if the process failed.
 
-        If a kernel of one of the stages has to be compiled, a second process starts. The second process compiles the
-        stage that the constant `BESIDE` contains. A computer with only one processor starts no second process.
+        If kernels have to be compiled and the computer has more than one processor, a second process compiles the stage
+        `BESIDE` at the same time.
         """
         other: asyncio.Task[bool] | None = None
         process = await asyncio.create_subprocess_exec(

@@ -1,11 +1,11 @@
 """Recommendation of a crowning ratio for a coupling whose misalignment varies within a given range.
 
-The paper asks for a contact surface overlap below 1, and then for the largest possible load capacity. The overlap is
-largest at the smallest misalignment, and falls as the crowning ratio rises. The contact reaches farthest from the
-middle of the face at the largest misalignment, and this distance grows as the crowning ratio rises. The overlap must
-stay below 1, and the contact must stay on the face; these two constraints leave a window of crowning ratios. This
-window may be empty, or only one percent wide. The module solves for both ends of the window, and finds the largest load
-capacity between these ends.
+The paper asks for a contact surface overlap below 1, and then for the largest possible load capacity. Two constraints
+limit the crowning ratio. A larger ratio reduces the overlap, which is largest at the smallest misalignment. A larger
+ratio also moves the contact towards the ends of the face, most of all at the largest misalignment. The overlap
+therefore sets a lower bound of the ratio, and the width of the face sets an upper bound. The range between both bounds
+may be empty, or only one percent wide. The module solves for both bounds, and finds the largest load capacity between
+them.
 """
 
 from collections.abc import Callable
@@ -108,11 +108,12 @@ _REASONS = {
 
 @dataclass(frozen=True, slots=True)
 class CrowningState:
-    """Constraints and load capacity of a crowning ratio, each at the worse end of the misalignment range.
+    """Constraints and load capacity of one crowning ratio over the whole range of misalignment.
 
-    `overlap` must be below 1. `edge`, `pressure` and `width` must not exceed 1. `edge` is the largest distance of the
-    contact from the middle of the face, divided by half the face width. `pressure` and `width` are divided by their
-    limits. `load_capacity_coefficient` is the smaller of the two values at the ends of the misalignment range.
+    Each value belongs to the end of the range at which this value is worse. `overlap` must be below 1. `edge`,
+    `pressure` and `width` must not exceed 1. `edge` is the largest distance of the contact from the middle of the face,
+    divided by half the face width. `pressure` and `width` are the pressure and the width of the contact, divided by
+    their limits.
     """
 
     overlap: float
@@ -143,7 +144,7 @@ def at_misalignment(inputs: RecommendationInputs, ratio: float, misalignment: fl
 
 
 def crowning_state(inputs: RecommendationInputs, ratio: float) -> CrowningState:
-    """Compute constraints and load capacity of a crowning ratio, each at the worse end of the misalignment range."""
+    """Compute the constraints and the load capacity of a crowning ratio over the whole range of misalignment."""
     design = inputs.design
     crowned = replace(design, coupling=replace(design.coupling, crowning_ratio=ratio))
     geometry = tooth_geometry(crowned.coupling)
@@ -159,10 +160,7 @@ def crowning_state(inputs: RecommendationInputs, ratio: float) -> CrowningState:
 
 
 def _state_at(misalignment: float, crowned: CouplingInputs, geometry: Geometry) -> CrowningState:
-    """Compute the constraints and the load capacity at one misalignment [rad].
-
-    `crowned` and `geometry` are the same at every misalignment; only the motion of the mesh changes.
-    """
+    """Compute the constraints and the load capacity at one misalignment [rad]."""
     operation = replace(crowned.operation, misalignment=misalignment)
     mesh = mesh_motion(crowned.coupling, geometry, operation, crowned.model.kinematics)
     film = film_state(crowned, geometry, mesh)
@@ -212,10 +210,10 @@ def crowning_window(state: Callable[[float], CrowningState]) -> tuple[float, flo
 
 
 def _root(state: Callable[[float], CrowningState], constraint: str) -> float:
-    """Find the crowning ratio at which a constraint reaches 1.
+    """Find the crowning ratio at which the value of a constraint is 1.
 
-    If the constraint does not reach 1 between `MIN_CROWNING_RATIO` and `MAX_CROWNING_RATIO`, return the end of this
-    range at which the constraint is nearer to 1.
+    If the value is not 1 anywhere between `MIN_CROWNING_RATIO` and `MAX_CROWNING_RATIO`, return the end of this range
+    at which the value is nearer to 1.
     """
 
     def excess(logarithm: float) -> float:
@@ -287,8 +285,7 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
 def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float) -> float:
     """Find the crowning ratio with the largest load capacity between `low` and `high`.
 
-    The search first compares several crowning ratios in this range. The search then continues between the two
-    neighbours of the best of these ratios.
+    First compare several ratios of this range. Then search between the two neighbours of the best of these ratios.
     """
     grid = np.geomspace(low, high, _WINDOW_POINTS)
     capacity = [state(float(ratio)).load_capacity_coefficient for ratio in grid]
@@ -370,7 +367,6 @@ def _sliding_notices(inputs: RecommendationInputs) -> tuple[Notice, ...]:
 
 
 def _check(inputs: RecommendationInputs) -> None:
-    """Raise InvalidInput if no recommendation is possible at all."""
     if not 0.0 < inputs.min_misalignment <= inputs.max_misalignment <= MAX_MISALIGNMENT:
         raise InvalidInput(
             "misalignment_range",

@@ -21,13 +21,12 @@ from solvers.coupling.tooth_loads import coaxial_limit, mesh_loads
 
 
 class ToothSums(NamedTuple):
-    """Sums over the teeth, averaged over the rotor angles; each summand contains the tangential force F_t as a factor.
+    """Sums over the teeth, averaged over the rotor angles.
 
-    Here v_r is the relative velocity, sgn(v_r) is the direction of friction, and phi is the tooth angle. Three sums
-    contain the direction: `axial` is sum F_t sgn(v_r), `tilting` is sum F_t sgn(v_r) sin(phi), and `pivoting` is sum
-    F_t sgn(v_r) cos(phi) [N]. `power` is sum F_t |v_r| [W]. The other sums do not contain the direction: `load` is sum
-    F_t over all teeth, `still` is sum F_t over the teeth without relative velocity, `tilted` is sum F_t sin^2(phi),
-    `mixed` is sum F_t sin(phi) cos(phi), and `pivoted` is sum F_t cos^2(phi) [N].
+    F_t is the tangential force, v_r is the relative velocity, and phi is the tooth angle. `load` is sum F_t, and
+    `still` is sum F_t over the teeth without relative velocity [N]. `axial` is sum F_t sgn(v_r), `tilting` is
+    sum F_t sgn(v_r) sin(phi), and `pivoting` is sum F_t sgn(v_r) cos(phi) [N]. `tilted` is sum F_t sin^2(phi), `mixed`
+    is sum F_t sin(phi) cos(phi), and `pivoted` is sum F_t cos^2(phi) [N]. `power` is sum F_t |v_r| [W].
     """
 
     load: float
@@ -121,9 +120,9 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
     Notes
     -----
     Eq. C19, the paper's general expression. Thrust and slack are averaged over the rotor angles. A tooth without
-    relative velocity may carry any friction between -mu F_n and mu F_n. The thrust counts this friction as zero. The
-    slack is the sum of mu F_n over these teeth. Without axial velocity the thrust is zero, because half a turn later
-    every tooth has the same load and slides in the opposite direction.
+    relative velocity may carry any friction between -mu F_n and mu F_n. The thrust counts this friction as zero, and
+    the slack counts it as mu F_n. Without axial velocity the thrust is zero, because half a turn later every tooth has
+    the same load and slides in the opposite direction.
     """
     scale, sums = friction / cos(loaded.motion.pressure_angle), loaded.sums
     force = without_rounding(sums.axial, sums.load) if axial_velocity != 0.0 else 0.0
@@ -363,9 +362,8 @@ def contact_shift_moment(inputs: CouplingInputs, geometry: Geometry, loaded: Loa
 
     Notes
     -----
-    Eq. C27. Here z_c is the axial position of the contact, and n_x is the x component of the flank normal n. Both z_c
-    and n_x are harmonics of phi; their product is a sum of terms in sin^2, sin cos and cos^2. With both kinematics the
-    moment M_s equals sum F_t df_t/d delta.
+    Eq. C27. Here z_c is the axial position of the contact, and n_x is the x component of the flank normal n. With both
+    kinematics the moment M_s equals sum F_t df_t/d delta.
 
     With `tangential` kinematics, z_c is the contact position s_1 on the hub flank, and n_x contains only the tangential
     part of n. If all tooth loads are equal, the moment M_s is then R_t delta T/(2 r_o).

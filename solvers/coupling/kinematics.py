@@ -357,7 +357,7 @@ def flank_normals(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class RotorSamples:
-    """Quadrature over rotor angles: tooth positions `teeth` (rows, teeth), and weights (rows) whose sum is one."""
+    """Tooth positions `teeth` (rotor angles, teeth) for means over the rotor angle, and weights whose sum is one."""
 
     weight: FloatArray
     teeth: ToothPositions
@@ -373,12 +373,11 @@ def friction_reversals(mesh: MeshMotion, axial_velocity: float) -> list[float]:
 
 
 def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -> RotorSamples:
-    """Return Gauss points between the rotor angles at which the friction of some tooth reverses.
+    """Return Gauss points and weights for means over the rotor angle.
 
-    The Gauss points are used to compute means over the rotor angles. The friction of a tooth jumps if the relative
-    velocity of the tooth changes sign. The rotor angles of these jumps divide the pitch into parts. Within each part
-    the integrand of a mean has no jumps. The integrand has kinks only at rotor angles at which a tooth comes under
-    load. The Gauss points are at least as accurate as a midpoint rule with several hundred points.
+    The friction of a tooth jumps if the relative velocity of the tooth changes sign. The rotor angles of these jumps
+    divide the pitch into parts, and the Gauss points lie inside the parts. The result is at least as accurate as a
+    midpoint rule with several hundred points.
     """
     uneven = coupling.pitch_errors is not None
     return _samples(coupling.teeth, uneven, tuple(friction_reversals(mesh, axial_velocity)))
@@ -386,10 +385,10 @@ def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -
 
 @lru_cache(maxsize=4)
 def _samples(teeth: int, uneven: bool, reversals: tuple[float, ...]) -> RotorSamples:
-    """Return the quadrature that `rotor_samples` describes, from a cache if possible.
+    """Return the Gauss points and weights of `rotor_samples`, from a cache if possible.
 
-    The key of the cache contains the tooth angles `reversals` instead of the misalignment. Without axial velocity these
-    angles are the same at every misalignment, so that the cached quadrature can be used again.
+    `reversals` are the tooth angles at which the friction changes direction. Without axial velocity these angles do not
+    depend on the misalignment, so the cache can be used for every misalignment.
     """
     pitch = 2.0 * pi / teeth
     breaks = [angle % pitch for angle in reversals]

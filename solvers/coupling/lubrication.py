@@ -80,9 +80,7 @@ class FilmState:
 def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
     """Compute the largest normal tooth force [N] while one tooth is at 90 degrees, in the tilt position.
 
-    If the pitch deviations of the teeth differ, the result is the largest force at any rotor angle of a revolution.
-    This search includes angles between the tilt positions of two teeth, because with `spatial` kinematics the
-    displacement of a tooth is largest somewhat beyond the tilt position.
+    If the pitch deviations of the teeth differ, the result is the largest force at any rotor angle.
     """
     if len(set(inputs.coupling.pitch_errors or ())) <= 1:
         return float(_largest_forces(inputs, mesh, _positions_at(pi / 2, inputs.coupling.teeth)).max())
@@ -141,9 +139,9 @@ def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -
 def inlet_length(model: ModelOptions, face_width: float, max_travel: float) -> float:
     """Return the length b_I [m] of the converging gap ahead of the contact.
 
-    The paper does not define b_I. With the inlet model `face`, b_I is the part of the face that is ahead of the contact
-    when the contact reverses its direction. According to the paper, the film is thickest at this reversal. If the
-    contact has left the tooth, b_I is zero with every inlet model.
+    The paper does not define b_I; `model.inlet` chooses one of several definitions. With the inlet model `face`, b_I is
+    the part of the face that lies ahead of the contact at the end of its travel. According to the paper, the film is
+    thickest there. If the contact leaves the tooth, b_I is zero with every inlet model.
     """
     if max_travel >= face_width / 2.0:
         return 0.0
@@ -387,9 +385,9 @@ def _interpolate_logarithm(x: float, points: tuple[tuple[float, float], ...]) ->
 def _well_supplied(load_capacity_coefficient: float, mixed: float, lowest: float) -> float:
     """Compute the coefficient of friction at an overlap below 1.
 
-    `mixed` is the mixed friction at the present velocity, and `lowest` is the smallest mixed friction at any velocity.
-    As the load capacity coefficient rises, the friction changes from `mixed` to `lowest`, and then to the friction of a
-    full film.
+    `mixed` is the coefficient of mixed friction at the present velocity, and `lowest` is the smallest coefficient at
+    any velocity. The result is `mixed` at the load capacity coefficient 0, and `lowest` at 0.2. From 0.8 on, the result
+    is the friction of a full film.
     """
     full_film = min(0.01, lowest)
     if load_capacity_coefficient > 0.8:

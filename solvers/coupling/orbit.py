@@ -117,11 +117,10 @@ def _safe_force(inputs: CouplingInputs) -> float:
 def _settled_path(
     inputs: CouplingInputs, angles: FloatArray, force: FloatArray, highest_order: int, max_sweeps: int
 ) -> _SettledPath:
-    """Repeat sweeps over the rotor angles until the path settles.
+    """Repeat sweeps over the rotor angles until the path of the sleeve no longer changes.
 
-    The sweeps start with `force` (rows, 2) [N], a guess of the inertia force. As long as further teeth come under load,
-    the change of the path may grow from sweep to sweep. This change begins to fall after about a dozen sweeps at the
-    latest.
+    `force` (rows, 2) [N] is a guess of the inertia force for the first sweep. At first, the change of the path may grow
+    from sweep to sweep, because further teeth come under load. The change falls after at most about a dozen sweeps.
     """
     coupling, operation = inputs.coupling, inputs.operation
     mesh = mesh_motion(coupling, tooth_geometry(coupling), operation, inputs.model.kinematics)
@@ -151,11 +150,10 @@ def _settled_path(
 def _farthest(
     inputs: CouplingInputs, mesh: MeshMotion, angles: FloatArray, force: FloatArray, highest_order: int
 ) -> float:
-    """Find the largest displacement [m] under a settled inertia force (rows, 2) [N].
+    """Find the largest displacement [m] of the sleeve under a settled inertia force (rows, 2) [N].
 
-    The search includes positions between the rotor angles: if few teeth are loaded, a peak of the displacement lasts
-    only a fraction of a pitch. The force is a sum of Fourier terms up to the highest order; the force is therefore also
-    known between the rotor angles.
+    The search also covers positions between the rotor angles, because a peak of the displacement may last only a
+    fraction of a pitch. The inertia force at these positions follows from its Fourier terms.
     """
     coupling, limit = inputs.coupling, _safe_force(inputs)
     order = np.arange(highest_order + 1)
@@ -210,7 +208,7 @@ def _harmonics(force: FloatArray) -> FloatArray:
 def _result(
     angles: FloatArray, settled: _SettledPath, finer: Sequence[_SettledPath], geometry: Geometry
 ) -> OrbitResult:
-    """Return the settled orbit; the uncertainty is the largest difference between this orbit and the finer paths."""
+    """Return the orbit of the settled path. The largest difference from one of the finer paths is the uncertainty."""
     harmonics = settled.harmonics
     displacement_uncertainty = max((abs(path.farthest - settled.farthest) for path in finer), default=None)
     harmonics_uncertainty = max((float(np.abs(path.harmonics - harmonics).max()) for path in finer), default=None)

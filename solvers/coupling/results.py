@@ -203,13 +203,13 @@ class AxialThrust:
     """Mean axial thrust over one tooth pitch or, if there are pitch deviations, over one revolution.
 
     In the arrangement `single`, `force` is the thrust of one mesh and is positive in the direction of the axial
-    velocity. In the other arrangements, `force` acts on one shaft and is positive if the shafts are pulled together. If
-    nothing slides, friction can have any value up to its limit; `indeterminate` is then True, and the thrust lies
-    between `lower_bound` and `upper_bound`. In all other cases both bounds equal `force`. `fraction_of_limit` is
-    `force` divided by `coaxial_limit`, or None without load. `breakaway_force` is the thrust at which coaxial shafts
-    start to slide from rest, without a film. `uniform_load_force` is the thrust of one mesh by the closed form for
-    equal tooth loads. A thrust bearing must hold `design_force`, which is the larger of |force| and `breakaway_force`.
-    For comparison, `customary_force` is the thrust by a rule of practice, or None without a shaft diameter.
+    velocity. In the other arrangements, `force` acts on one shaft and is positive if the shafts are pulled together.
+
+    If nothing slides, friction can have any value up to its limit. In this case `indeterminate` is True, and the thrust
+    lies between `lower_bound` and `upper_bound`. In all other cases both bounds equal `force`.
+
+    `fraction_of_limit` is None without load. `customary_force` follows a rule of practice, and is None without a shaft
+    diameter. `breakaway_force` assumes coaxial shafts without a lubricant film.
     """
 
     force: float = quantity(
@@ -356,8 +356,8 @@ class Orbit:
 class InertiaForce:
     """Inertia force of the part of the sleeve's mass that is assigned to one mesh, at the rotor angles of the orbit.
 
-    The harmonics are the amplitudes of the orders k = 0, 1, 2 and so on. The amplitude of order 0 is the magnitude of
-    the mean, |c_0|. The amplitude of every other order is 2 |c_k|, where c_k is the Fourier coefficient.
+    The harmonics are amplitudes. The amplitude of order 0 is the magnitude of the mean. The amplitude of every
+    other order k is 2 |c_k|, where c_k is the Fourier coefficient.
     """
 
     x: FloatArray = quantity(
@@ -398,11 +398,14 @@ class InertiaForce:
 class OrbitResult:
     """Results for one revolution of a floating sleeve under its own inertia.
 
-    `sweeps` is the number of sweeps over the revolution until the path settled, and `change` [m] is the change of the
-    path in the last sweep. For the uncertainties, two further paths with twice as many orders are computed: one with
-    twice as many rotor angles, the other with three times as many. Each further path is compared with the settled path.
-    The largest displacements differ by at most `displacement_uncertainty` [m], and the harmonics of the force differ by
-    at most `harmonics_uncertainty` [N]. Both uncertainties are None if one of the further paths does not settle.
+    The path of the sleeve is computed in repeated sweeps over the revolution, until the path settles. `sweeps` is the
+    number of sweeps, and `change` [m] is the change of the path in the last sweep.
+
+    The uncertainties come from two further paths, which are computed with more rotor angles and more orders. Compared
+    with the settled path, the largest displacement differs by at most `displacement_uncertainty` [m], and the harmonics
+    of the force differ by at most `harmonics_uncertainty` [N]. Both uncertainties are None if one of the further paths
+    does not settle.
+
     `derived` contains the radii of the teeth.
     """
 

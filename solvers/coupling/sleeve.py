@@ -72,9 +72,9 @@ def add_friction_moment(
 ) -> tuple[float, float, float]:
     """Add one component of the friction moment of a mesh to `moment`.
 
-    Returns the new moment, which is `moment` + sum F_t sgn(v_r) e_r. Also returns the derivatives of this sum with
-    respect to the force (x, y) on the mesh. `arm` (teeth) holds sgn(v_r) e_r, where e_r is a component of the tooth's
-    radial direction. `ahead` and `hessian` are the results of `float_sleeve` for this mesh.
+    Returns the new moment, and the derivatives of the friction moment with respect to the force (x, y) on the mesh. The
+    component of the friction moment is sum F_t sgn(v_r) e_r, where e_r is a component of the tooth's radial direction.
+    `arm` (teeth) holds sgn(v_r) e_r. `ahead` and `hessian` are the results of `float_sleeve` for this mesh.
     """
     normal_x, normal_y = normal
     torque, x, y = 0.0, 0.0, 0.0
@@ -100,11 +100,11 @@ def unbalanced_force(
     places: Places,
     ahead: FloatArray,
 ) -> Unbalance:
-    """Return the residual Phi(g) - g of the sleeve's force balance, with g on the left mesh and -g on the right mesh.
+    """Return the residual Phi(g) - g of the sleeve's force balance.
 
-    The function balances both meshes under these forces. The balance of each mesh starts from the values in `places`;
-    the solution replaces these values. The function writes the interference of the teeth to `ahead` (2, teeth). The
-    size of the residual is inf if a mesh cannot hold the force.
+    The function balances both meshes under the lateral force g = `force` on the left mesh and -g on the right mesh.
+    `places` holds the start values of this balance, and receives the solution. `ahead` (2, teeth) receives the
+    interference of the teeth. If a mesh cannot hold the force, the size of the residual is inf.
     """
     moment_x, moment_y, xx, xy, yx, yy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for mesh in range(2):
@@ -230,11 +230,11 @@ def balance_rows(
 
 @dataclass(frozen=True, slots=True)
 class SleeveEquilibrium:
-    """Thrust and overturning moment of two meshes on one sleeve.
+    """Thrust and overturning moment that two meshes cause on one sleeve.
 
-    Both are means over one tooth pitch or, if there are pitch deviations, over one revolution. `thrust` [N] acts on one
-    shaft and is positive if the shafts are pulled together. `overturning_moment` [N m] is the moment of friction on the
-    sleeve.
+    Both are means over one tooth pitch. If there are pitch deviations, they are means over one revolution. `thrust` [N]
+    acts on one shaft; a positive thrust pulls the shafts together. `overturning_moment` [N m] is the moment of friction
+    on the sleeve.
     """
 
     thrust: float

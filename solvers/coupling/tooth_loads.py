@@ -9,10 +9,9 @@ of tooth i is u_i = psi + w_i - e . d_i, where w_i is the lead of the tooth and 
 cos(alpha).
 
 In equilibrium, psi and e minimise the convex energy sum max(0, u_i)^2/2 - psi - force . e, which is piecewise
-quadratic. The length of each Newton step is the length at which the energy along the step is lowest. The energy
-therefore falls in each step from any start, and every sleeve that can be balanced is balanced. The u_i are updated from
-step to step. If the u_i were computed again from psi and e, a tooth force that is small compared with the leads would
-lose its digits.
+quadratic. Each Newton step ends where the energy along the step is lowest. The energy therefore falls in each step from
+any start, and every sleeve that can be balanced is balanced. The u_i are updated from step to step, because a
+calculation from psi and e would lose the digits of tooth forces that are small compared with the leads.
 """
 
 from collections.abc import Callable
@@ -42,12 +41,12 @@ MAX_ITERATIONS = 10_000  # limit; no balance should reach this limit, because ea
 BALANCE_TOLERANCE = 1e-13  # in units of T/r_o; a few hundred rounding errors
 LONGEST_STEP = 1e100  # stands for infinity; the square of this number does not overflow
 STIFF = 1e-12
-"""Up to this ratio to the stiffness of the loaded teeth, a lateral stiffness of the sleeve counts as zero.
+"""Lateral stiffness of the sleeve that counts as zero, divided by the stiffness of the loaded teeth.
 
 Rounding errors of this ratio are about 1e-16.
 """
 FLAT = 1e-12
-"""Up to this ratio to the slope of the energy at the start of a step, a slope along the step counts as zero."""
+"""Slope of the energy along a step that counts as zero, divided by the slope at the start of the step."""
 
 LOADED = 1e-6
 """Smallest ratio of a tooth's force to the mean tooth force at which the tooth counts as loaded."""
@@ -95,9 +94,8 @@ class Hessian(NamedTuple):
 def _crossing(ahead: FloatArray, highest: float, psi: float) -> float:
     """Return the next rotation psi in Newton's method for the equation sum max(0, psi + w_i - w_max) = 1.
 
-    `ahead` holds the lead w_i of each tooth, `highest` is the largest lead w_max, and `psi` is the present rotation.
-    The present rotation is positive. The teeth at which psi + w_i - w_max is positive are loaded. At the next rotation,
-    the sum of psi + w_i - w_max over these teeth is 1.
+    `ahead` holds the lead w_i of each tooth, `highest` is the largest lead w_max, and `psi` is the present rotation,
+    which is positive.
     """
     count, total = 0, 0.0
     for lead in ahead:
@@ -146,9 +144,9 @@ def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
 def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
     """Replace the lead w_i of each tooth by its interference u_i under unit torque, in place.
 
-    The lead of a tooth is the length by which the tooth is ahead. Returns two values. The first value is the common
-    rotation psi, counted from the point where the tooth with the largest lead makes contact. The second value is
-    u_i - w_i, which is the same for all teeth. `start` is a start value for the first value.
+    The lead of a tooth is the length by which the tooth is ahead. Returns the common rotation of the teeth twice. The
+    first value is counted from the rotation at which the tooth with the largest lead makes contact. The second value is
+    counted from zero and equals u_i - w_i for all teeth. `start` is a start value for the first value.
     """
     highest: float = ahead[0]
     for lead in ahead:
@@ -202,11 +200,9 @@ def add_up(ahead: FloatArray, normal: FloatArray) -> tuple[Motion, Hessian]:
 def solve_loaded(hessian: Hessian, right: Motion) -> tuple[Motion, float, float]:
     """Solve `hessian` times motion = `right` in the directions in which the loaded teeth have stiffness.
 
-    Returns the motion. Also returns the part of the lateral force (x, y) in `right` that acts in the directions without
-    stiffness. The rotation is eliminated first. The matrix of the remaining equations is the scatter of the flank
-    normals of the loaded teeth; the equations are solved along the principal directions of this matrix. If fewer than
-    three teeth are loaded, there is no stiffness in one or both of these directions. The sleeve does not move in a
-    direction without stiffness.
+    If fewer than three teeth are loaded, the teeth do not resist a displacement of the sleeve in one direction, or in
+    any direction. The motion has no component in such a direction. Returns the motion, and the x and y components of
+    that part of the lateral force which acts in directions without stiffness.
     """
     loaded = max(hessian.loaded, 1.0)
     mean_x, mean_y = hessian.x / loaded, hessian.y / loaded
@@ -233,9 +229,8 @@ def solve_loaded(hessian: Hessian, right: Motion) -> tuple[Motion, float, float]
 def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
     """Return the Newton step that adds the `missing` forces, and the rate at which the energy falls along this step.
 
-    If more than half of the missing force acts in a direction without stiffness, the step is along this direction
-    instead. Such a step does not change the forces of the loaded teeth; the step ends when another tooth meets the
-    sleeve.
+    If more than half of the missing force acts in a direction in which the loaded teeth have no stiffness, the step
+    follows this direction instead. Such a step does not change the forces of the loaded teeth.
     """
     step, free_x, free_y = solve_loaded(hessian, missing)
     unheld = hypot(free_x, free_y)
@@ -251,8 +246,6 @@ def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: flo
 
     The energy is differentiated with respect to the length. `ahead` holds the interferences u_i of the teeth at length
     zero, and `start` is the first derivative at length zero. A step of length 1 changes the interferences by `change`.
-    The function computes how much the first derivative changes between length zero and `length`, and adds this change
-    to `start`. A direct sum of torque and tooth forces would lose its digits by cancellation near the balance.
     """
     first, second = start, 0.0
     for i in range(ahead.size):
@@ -267,11 +260,9 @@ def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: flo
 def length_to_lowest(ahead: FloatArray, change: FloatArray, start: float) -> float:
     """Find the length of a step at which the energy is lowest.
 
-    If the energy has no minimum, the result is LONGEST_STEP. The slope of the energy has the negative value `start` at
-    length zero, and rises piecewise linearly with the length. Newton's method finds the length at which the slope is
-    zero. The iteration stays between two lengths, one shorter and one longer than the length at which the energy is
-    lowest. If no tooth resists the motion at the present length, the length is doubled. Several doublings may be needed
-    before a tooth resists.
+    If the energy has no minimum, the result is LONGEST_STEP. The derivative of the energy has the negative value
+    `start` at length zero, and rises piecewise linearly with the length. Newton's method, safeguarded by a bracket,
+    finds the length at which the derivative is zero. If no tooth resists the motion at a length, the length is doubled.
     """
     before, behind, length = 0.0, LONGEST_STEP, 1.0
     while length < LONGEST_STEP:
@@ -360,10 +351,10 @@ def floating_rows(
 ) -> None:
     """Balance a floating sleeve in each row, and write the results to `share`, `places` and `iterations`.
 
-    `force` (rows, 2) is the external force on the sleeve. `share` receives the tooth forces, and `places` receives the
-    rotation and the displacement of the sleeve. The first row starts from the displacement in the first entry of
-    `places`, and each further row starts from the displacement in the previous row. In the first row
-    without balance the number of iterations is negative; later rows are not computed.
+    A row belongs to one rotor angle. `force` (rows, 2) is the external force on the sleeve. `share` receives the tooth
+    forces, and `places` receives the rotation and the displacement of the sleeve. On entry, the first entry of `places`
+    holds the start value of the displacement. If a row has no balance, its number of iterations is negative, and the
+    later rows are not computed.
     """
     for row in range(interference.shape[0]):
         before = max(row - 1, 0)
@@ -378,13 +369,10 @@ def floating_rows(
 def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArray]) -> float:
     """Find the largest value at evenly spaced rotor angles [rad] and between these angles.
 
-    `values_at` takes rotor angles (rows) and returns one value per angle. After the evaluation at the given angles, two
-    searches look for larger values near the local maxima. The steps of the first search are eight times finer than the
-    given steps, and the steps of the second search are eight times finer again. A search leaves out a local maximum
-    near which no new largest value is expected. The rise of a local maximum is its height above the lower one of the
-    two neighbouring values. Half of this rise is expected as the most that a finer search can add. The searches are
-    necessary because each tooth has its own peak, and because a peak lasts only a fraction of a pitch if few teeth are
-    loaded.
+    `values_at` takes rotor angles and returns one value per angle. Each tooth causes its own peak. If few teeth are
+    loaded, such a peak is narrower than a pitch and may lie between the given angles. Two searches with finer steps
+    therefore look for larger values near the local maxima. A local maximum is skipped if it is too low: a finer search
+    is expected to add at most half of the difference between the local maximum and the lower neighbouring value.
     """
     coarse, step = values_at(angles), angles[1] - angles[0]
     places = angles[:, None] + step * np.array([-1.0, 0.0, 1.0])
@@ -420,9 +408,9 @@ class ToothLoads:
 
 
 def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Compute the amount by which each tooth is ahead, called the lead of the tooth.
+    """Compute the lead of each tooth, which is the length by which the tooth is ahead.
 
-    The lead is the interference of the tooth without common rotation and without displacement of the sleeve.
+    The lead equals the interference of the tooth if the mesh is not rotated and the sleeve is not displaced.
 
     Parameters
     ----------

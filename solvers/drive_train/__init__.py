@@ -1,12 +1,11 @@
 """Calculation of a complete gear unit: couplings, shafts, bearings, pumping heat and gear mesh.
 
-The unknown is the gap between the flanks over the face. `inputs` holds the inputs, and `checks` checks the inputs. The
-package `shafts` joins shafts, bearings and couplings into one flexibility matrix. The package `gap` finds the gap at
-which this system is in equilibrium with the mesh, and computes the contribution of each cause to the gap. `elements`,
-`losses` and `safety` compute the results at this gap. `model.solve` calls all these modules and `notices`.
-`states.solve` calls `model.solve` for the hot unit and for the cold unit. `unit_heat` iterates between the heat balance
-and the gap, and `warm_up` computes the heat balance and the gap over time. The derivations are our own, except where a
-source is named.
+`model.solve` solves for the gap between the flanks over the face. `inputs` holds the inputs, and `checks` checks them.
+The package `shafts` joins shafts, bearings and couplings into one flexibility matrix. The package `gap` finds the gap
+in equilibrium, and the contribution of each cause to the gap. `elements`, `losses` and `safety` compute the results at
+this gap, and `notices` computes the warnings. `states.solve` calls `model.solve` for the hot and for the cold unit.
+`unit_heat` iterates between the heat balance and the gap, and `warm_up` computes both over time. The derivations are
+our own, except where a source is named.
 """
 
 from solvers.drive_train import states, warm_up

@@ -46,7 +46,7 @@ def coupling_results(
 ) -> tuple[CouplingResult, ...]:
     """Return tilts, friction and loads of the couplings.
 
-    The equilibrium holds conjugate moments m = -Z x M. The results hold the moments M.
+    `equilibrium` contains the conjugate moment m = -Z x M of each coupling. The results contain the moment M.
     """
     results = []
     for k, (port, pair) in enumerate(zip(unit.couplings, hubs, strict=True)):

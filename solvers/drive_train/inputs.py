@@ -274,7 +274,7 @@ class Alignment:
 
     @property
     def growth(self) -> float:
-        """Rise of the machine's shaft relative to the unit's shaft while both warm up [m]."""
+        """Amount by which the machine's shaft rises more than the unit's shaft while both warm up [m]."""
         unit, machine = (
             (height or 0.0) * (rise or 0.0)
             for height, rise in ((self.unit_height, self.unit_rise), (self.machine_height, self.machine_rise))
@@ -380,9 +380,9 @@ class Heat:
     `wall_response_wheel` is None, the response of the wheel is the response of the pinion times z1/z2, because a wheel
     tooth meets the hot gas once per turn of the wheel.
 
-    Normally the tooth temperatures do not include the pumping heat, and the model adds the temperature rise of the
-    metal. If the tooth temperatures already include the pumping heat, the model adds only the difference between
-    this rise and the mean of this rise over the face.
+    The pumped gas heats the metal. Normally the tooth temperatures do not include this temperature rise, and the model
+    adds the rise. If the tooth temperatures include the rise, the model adds only the deviation of the rise from its
+    mean over the face.
     """
 
     wall_response: float | None = quantity(

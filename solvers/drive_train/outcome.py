@@ -41,8 +41,8 @@ class Outcome:
 def outcome(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Outcome:
     """Compute the main results of a unit.
 
-    `start` [m] is the gap of a similar unit. If `start` is given, the iteration starts from this gap. Raises the errors
-    of `model.solve`.
+    If `start` is given, the iteration starts from this gap [m], which may be the result for a similar unit. Raises the
+    errors of `model.solve`.
     """
     if asks_for_balance(inputs):
         warm = warm_unit(

@@ -21,14 +21,16 @@ from solvers.sources import ISO_6336, OCVIRK
 
 @record
 class Parts:
-    """Contributions to the slope of the gap over the face; one contribution per cause.
+    """Contributions of single causes to the slope of the gap over the face.
 
-    Only the gap due to the shafts is meant, without the gaps due to heat and due to the modifications. All
-    contributions are computed at the loads in equilibrium. The mesh force deforms the shafts elastically. This
-    deformation contributes `bending`, `torsion` and `tilting_moment`. The displacements in all bearings under all loads
-    contribute `films`. The offsets of the bores contribute `bearing_offsets`. The shafts also bend elastically under
-    the loads of the couplings, under the load of the thrust collar and under their weight. This bending contributes
-    `coupling`, `collar` and `weight`.
+    Only the gap due to the shafts is meant, without the gaps due to heat and modifications. All contributions are
+    computed at the loads in equilibrium:
+
+    - `bending`, `torsion` and `tilting_moment` are due to the elastic deformation of the shafts by the mesh force.
+    - `films` are due to the displacements in all bearings under all loads.
+    - `bearing_offsets` are due to the offsets of the bores.
+    - `coupling`, `collar` and `weight` are due to the elastic bending of the shafts by the loads of the couplings, by
+      the load of the thrust collar and by the weight of the shafts.
     """
 
     bending: float = quantity("slope by bending", "f_b", unit="um", text="of the mesh's transverse force")

@@ -158,10 +158,9 @@ def _place(mesh: LoadDistribution, peak: Peak) -> Place:
 
 
 def _bulk(inputs: DriveTrainInputs, thermal: ThermalLead, y: FloatArray) -> FloatArray:
-    """Return the bulk temperature of the contact [K] at the positions y [m], or NaN if there is no bulk temperature.
+    """Return the bulk temperature of the contact [K] at distances y [m] along the face; NaN if it is not known.
 
-    If `local_bulk` is on, add the temperature rise that pumping causes. This rise is the mean of the rises of pinion
-    and wheel.
+    If `local_bulk` is on, the temperature rise due to pumping is added, as the mean of pinion and wheel.
     """
     temperature = inputs.mesh.temperatures.bulk
     bulk = np.full(y.shape, np.nan if temperature is None else temperature)

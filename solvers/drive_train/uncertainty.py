@@ -26,8 +26,8 @@ QUARTERS: tuple[Callable[[float, float], tuple[float, float]], ...] = (
 class Range:
     """Values of one uncertain quantity.
 
-    `quantity` is the name of the quantity in words. `names` are the paths of the inputs that change with this quantity,
-    such as "heat.wall_response". Each row of `values` holds one value per input.
+    `quantity` is the name of the quantity in words. `names` are the dotted names of the inputs that change with this
+    quantity, such as "heat.wall_response". Each row of `values` holds one value per input.
     """
 
     quantity: str
@@ -38,10 +38,10 @@ class Range:
 def uncertain_inputs(inputs: DriveTrainInputs) -> tuple[Range, ...]:
     """Return the ranges of the uncertain inputs of a unit.
 
-    The wall response is uncertain, and so are the bearing clearances of each shaft. Three inputs of each coupling are
-    uncertain as well: the friction, the direction of the offset, and the thrust. The clearances of a shaft's two
-    bearings change by 10 % in opposite senses, because the same change in both bearings would not tilt the shaft. All
-    couplings change together. If the couplings varied independently, a unit with two couplings would need 2,048 runs.
+    The uncertain inputs are the wall response, the bearing clearances of each shaft, and three inputs of each coupling:
+    the friction, the direction of the offset, and the thrust. The clearances of a shaft's two bearings change by 10 %
+    in opposite senses, because the same change in both bearings would not tilt the shaft. All couplings change
+    together, because a unit with two independent couplings would need 2,048 runs.
     """
     ranges = (
         [Range("wall response", ("heat.wall_response",), tuple((value,) for value in RESPONSE))]
@@ -75,7 +75,7 @@ def _clearances(gear: str, shaft: Shaft) -> Range:
 
 
 def _together(inputs: DriveTrainInputs, quantity: str, name: str, values: tuple[float, ...]) -> Range:
-    """Return the range of an input of the couplings. All couplings take the same value at the same time."""
+    """Return the range of one input of the couplings. All couplings take the same value."""
     names = tuple(f"couplings.{k}.{name}" for k in range(len(inputs.acting_couplings)))
     return Range(quantity, names, tuple((value,) * len(names) for value in values))
 

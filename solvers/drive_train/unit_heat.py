@@ -242,9 +242,10 @@ def _journals(system: Unit, equilibrium: Equilibrium, face: tuple[float, float])
 
 
 def _operate(bearing: JournalBearing, load: float, speed: float, viscosity: float) -> tuple[float, float]:
-    """Return friction power [W] and eccentricity ratio of a bearing.
+    """Return the friction power [W] and the eccentricity ratio of a plain bearing.
 
-    `viscosity` [Pa s] is the viscosity of the gears' oil. A bearing in another oil keeps its own viscosity.
+    `viscosity` [Pa s] is used only if the bearing runs in the gears' oil. Otherwise the bearing keeps its own
+    viscosity.
     """
     film = replace(bearing, viscosity=viscosity) if bearing.in_gear_oil else bearing
     return friction_and_eccentricity(film, load, speed)
@@ -274,7 +275,7 @@ def _sections_between(
 
 
 def _radii_beside(shaft: Shaft, face: tuple[float, float]) -> tuple[float, float]:
-    """Return the radius [m] of the shaft next to each end of the face; 0 if the shaft ends at this end of the face."""
+    """Return the radii [m] of the shaft just outside both ends of the gear's face; 0 if the shaft ends there."""
     below = [outer / 2 for start, end, outer, _ in _places(shaft) if start < face[0] - SHORTEST_ROD <= end]
     above = [outer / 2 for start, end, outer, _ in _places(shaft) if start <= face[1] + SHORTEST_ROD < end]
     return max(below, default=0.0), max(above, default=0.0)

@@ -201,9 +201,8 @@ def _capacities(unit: DriveTrainInputs, warm: WarmUnit) -> Capacities:
 def _rotor(shaft: Shaft, material: Solid, solid: float, reference: float) -> float:
     """Return the heat capacity of a rotor [J/K].
 
-    A section whose outer diameter is at least `solid` [m] carries the teeth. If the outer diameter of such a section is
-    smaller than `reference` [m], the section counts as a cylinder with the outer diameter `reference`. This cylinder
-    has the heat capacity of the section with its teeth.
+    Sections whose outer diameter is at least `solid` [m] carry the teeth. Their outer diameter is taken as at least
+    `reference` [m], so that the heat capacity of the teeth is included.
     """
     sections = tuple(
         (

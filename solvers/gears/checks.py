@@ -63,9 +63,8 @@ def check_working_involute(value: float) -> None:
 def centre_distance_in_use(given: float | None, backlash_free: float) -> float:
     """Return the centre distance in use [m].
 
-    If no centre distance is given, the backlash-free centre distance is used. If the given centre distance is smaller
-    than the backlash-free centre distance, but only by the rounding of printed values, the backlash-free centre
-    distance is also used. Otherwise the given centre distance is used.
+    This is the given centre distance, or the backlash-free centre distance if none is given. A given centre distance
+    that is too small only by the rounding of printed values is raised to the backlash-free centre distance.
 
     Raises
     ------
@@ -121,14 +120,14 @@ def check_usable_flank(gear: Gear, name: str) -> None:
 def check_path(tip_start: float, tip_end: float, start: float, end: float) -> None:
     """Refuse a pair if the path of contact has no length.
 
-    All arguments are roll lengths of the pinion [m]. The tips of the two gears leave a path from `tip_start` to
-    `tip_end`. The tips and the root fillets together leave a path from `start` to `end`.
+    All arguments are roll lengths of the pinion [m]. If only the tips limit the path, the path extends from `tip_start`
+    to `tip_end`. If tips and root fillets limit the path, the path extends from `start` to `end`.
 
     Raises
     ------
     InvalidInput
-        `no_contact` if the tips leave no path; `involute_interference` if the tips leave a path, but tips and fillets
-        together leave no path.
+        `no_contact` if the path between the tips has no length; `involute_interference` if only the path between tips
+        and fillets has no length.
     """
     if tip_end <= tip_start:
         raise InvalidInput(

@@ -225,7 +225,7 @@ class PathOfContact:
 
     @cached_property
     def plane(self) -> ContactPlane:
-        """Rectangle in the plane of action through which the contact lines move."""
+        """Rectangle in the plane of action within which the teeth touch."""
         pair, face_width = self.pair, self.pair.inputs.face_width
         helix = tan(pair.base_helix_angle)
         if face_width * helix < LEAST_OVERLAP * pair.transverse_base_pitch:

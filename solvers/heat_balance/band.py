@@ -34,7 +34,7 @@ POORLY_COOLED = Extreme(wetting_share=0.2, fling_off_factor=0.7, measured=MEASUR
 
 
 def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Network:
-    """Return the network at one end of the band.
+    """Return the network at one end of the band of possible temperatures.
 
     If the user gives a wetting share, a rewetting share or a fling-off factor, the given value is kept.
 
@@ -55,9 +55,8 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
 
     Notes
     -----
-    Eq. H21. If the temperature of a gear was measured, the wetting share is fitted to this temperature minus the
-    uncertainty of the measurement at the well cooled end, and plus the uncertainty at the poorly cooled end. If no
-    wetting share gives the required temperature, the largest or the smallest wetting share is used.
+    Eq. H21. If the temperature of a gear was measured, the wetting share is fitted to this temperature plus
+    `extreme.measured`. If no wetting share gives the required temperature, the largest or the smallest share is used.
     """
     spray = network.spray
     if cooling.fling_off_factor is None:
@@ -74,8 +73,8 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
 def _fitted_again(network: Network, node: str, temperature: float) -> Network:
     """Return the network with the wetting share at which `node` has the given `temperature` [K].
 
-    If `node` is not colder than `temperature` at the largest wetting share, the network gets the largest share. If
-    `node` is too cold at every wetting share, the network gets the smallest share.
+    If `node` is too warm even at the largest wetting share, the network gets the largest share. If `node` is too cold
+    even at the smallest wetting share, the network gets the smallest share.
     """
     place, wanted = network.nodes.index(node), temperature - network.oil.inlet
     all_oil = wetted(network, MOST_WETTING)

@@ -161,11 +161,11 @@ def with_rotor(network: Network, node: str, temperature: float, drain: float | N
 
 
 def _fitted(network: Network, place: int, wanted: float, drain: float | None) -> Network | None:
-    """Return the network in which the node with the index `place` has the temperature rise `wanted` [K].
+    """Return the network in which a node has the temperature rise `wanted` [K]; None if there is no solution.
 
-    If `drain` is given, the oil in the drain also has the temperature rise `drain` [K]. Newton's method finds these
-    unknowns together: the rises of all other nodes, the logarithm of the wetting share and, if `drain` is given, the
-    other losses. The start value of the wetting share is 1. The function returns None in these cases:
+    The wetting share is fitted to the temperature rise of the node with the index `place`. If `drain` is given, the
+    other losses are fitted as well, so that the oil in the drain has the temperature rise `drain` [K]. There is no
+    solution in these cases:
 
     - Newton's method does not converge.
     - The wetting share lies outside the range from 0.02 to 1.

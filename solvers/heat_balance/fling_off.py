@@ -95,7 +95,7 @@ def heat_number(film: float, turn: float) -> float:
 
 
 def fling_off_time(oil: CoolingOil, teeth: TurningTeeth, temperature: float) -> float:
-    """Compute the time t* after which the film is only as thick as the thermal layer in the film.
+    """Compute the time t* after which the heat of the flank has passed through the whole film.
 
     Parameters
     ----------
@@ -146,10 +146,10 @@ def laid_film(teeth: TurningTeeth, flow: float) -> float:
 class FlingOff:
     """Cooling of one gear by its oil film.
 
-    `film` [m] is the thickness of the film that the jets lay per turn. `conductance` [W/K] is the conductance of this
-    film. A flank is flooded if a thicker film would not take more heat. `flooded` [W/K] is the conductance of the film
-    on a flooded flank. `turn_film` [m] is the thickness of a film that takes 90 % of the heat that the film on a
-    flooded flank takes. `limited` is true if the heat capacity of the oil flow limits the conductance.
+    `film` [m] is the thickness of the film that the jets lay in one turn, and `conductance` [W/K] is the conductance of
+    this film. `flooded` [W/K] is the conductance of a film so thick that more oil would not take more heat. `turn_film`
+    [m] is the thickness of a film that takes 90 % of the heat that such a thick film takes. `limited` is true if the
+    heat capacity of the oil flow limits `conductance`.
     """
 
     conductance: float
@@ -182,7 +182,7 @@ def fling_off(oil: CoolingOil, teeth: TurningTeeth, flow: float, factor: float, 
 
     Notes
     -----
-    Eq. H5: G = f omega/(2 pi) A sqrt(k rho c t*) q(h0', t'), but at most rho c Q_i. For a flooded flank h0' is 50.
+    Eq. H5: G = f omega/(2 pi) A sqrt(k rho c t*) q(h0', t'), but at most rho c Q_i. For `flooded`, h0' is 50.
     """
     time = fling_off_time(oil, teeth, (flank + oil.inlet) / 2)
     length, turn = sqrt(oil.diffusivity * time), 1 / (teeth.turns * time)

@@ -51,11 +51,9 @@ def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
 
 
 def _solved(network: Network, start: FloatArray | None) -> tuple[FloatArray | None, tuple[float, float, float]]:
-    """Return the temperature rises [K] of all nodes, and the three rises that the curve shows.
+    """Return the temperature rises [K] of all nodes, and the rises of pinion flank, wheel flank and drain.
 
-    The three rises are those of the pinion's flank, of the wheel's flank and of the drain. If there is no equilibrium,
-    the three rises are NaN, and the function returns None instead of the rises of all nodes. The rises of all nodes
-    are the start values at the next oil flow.
+    If there is no equilibrium, return None and three times NaN.
     """
     try:
         rises = equilibrium(network, start).rises

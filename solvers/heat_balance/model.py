@@ -209,10 +209,10 @@ def _cooled(gear: GearGeometry, pumping: float) -> CooledGear:
 def _cases(
     network: Network, cooling: Cooling, state: Equilibrium
 ) -> tuple[tuple[tuple[float, float], ...], tuple[Notice, ...]]:
-    """Return the flank temperatures of both gears at both ends of the uncertainty band and in the nominal case.
+    """Return the flank temperatures of both gears in the nominal case and at both ends of the uncertainty band.
 
-    If no band is requested, or if the band cannot be computed, only the flank temperatures of the nominal case are
-    returned. If the band cannot be computed, a notice is also returned.
+    If no band is requested or if the band has no solution, return the nominal case only. If the band has no solution,
+    also return a notice.
     """
     inlet = network.oil.inlet
     nominal = ((inlet + float(state.rises[FLANKS[0]]), inlet + float(state.rises[FLANKS[1]])),)
@@ -290,7 +290,7 @@ def _estimates(inputs: HeatBalanceInputs) -> BulkEstimates:
 def _deviation(network: Network, cooling: Cooling, rises: FloatArray) -> float | None:
     """Return the calculated minus the measured temperature of the wheel [K].
 
-    If a temperature was measured at one gear only, or at no gear, the result is None.
+    Return None unless the temperatures of both gears were measured.
     """
     rotors = list(cooling.measured.rotors.items())
     if len(rotors) < 2:

@@ -132,7 +132,7 @@ class Network:
 
     @cached_property
     def places(self) -> tuple[str, ...]:
-        """Names of all places: the nodes, and then the leaving oil, the surroundings and the source of the losses."""
+        """Names of all places between which heat flows: nodes, leaving oil, surroundings and source of the losses."""
         return (*self.nodes, "oil", "ambient", "source")
 
     @property
@@ -142,19 +142,19 @@ class Network:
 
     @property
     def coldest(self) -> float:
-        """Lowest temperature among the inputs [K]."""
+        """Temperature of the supplied oil, or of the surroundings of the casing if they are colder [K]."""
         return min(self.oil.inlet, self.casing.ambient) if self.casing else self.oil.inlet
 
     @cached_property
     def _coolings(self) -> dict[tuple[int, float], FlingOff]:
-        """Cache of the fling-off cooling; a key consists of the number of the gear and the flank temperature.
+        """Cache of the fling-off cooling.
 
         A Jacobian by finite differences asks for the cooling many times, but only at a few flank temperatures.
         """
         return {}
 
     def cooling(self, gear: int, rises: FloatArray) -> FlingOff:
-        """Return the fling-off cooling of gear 0 (pinion) or 1 (wheel)."""
+        """Return the cooling of gear 0 (pinion) or 1 (wheel) by oil that the gear flings off."""
         flank = self.oil.inlet + float(rises[FLANKS[gear]])
         cooling = self._coolings.get((gear, flank))
         if cooling is None:
@@ -165,16 +165,13 @@ class Network:
 
     @cached_property
     def _operations(self) -> dict[tuple[int, float], tuple[float, float]]:
-        """Cache of the friction power and the oil flow of the bearings.
-
-        A key consists of the number of the bearing and the temperature rise of the oil that leaves this bearing.
-        """
+        """Cache of the friction power and the oil flow of the bearings."""
         return {}
 
     def operation(self, number: int, outlet: float) -> tuple[float, float]:
-        """Return the friction power [W] and the oil flow [m^3/s] of the bearing with this number.
+        """Return the friction power [W] and the oil flow [m^3/s] of a bearing.
 
-        `outlet` [K] is the temperature rise of the oil that leaves the bearing.
+        `number` is the index of the bearing. `outlet` [K] is the temperature rise of the oil that leaves the bearing.
         """
         operation = self._operations.get((number, outlet))
         if operation is None:

@@ -47,10 +47,10 @@ def equilibrium(network: Network, start: FloatArray | None = None) -> Equilibriu
 
     Notes
     -----
-    Eq. H18. J is the Jacobian of the residual. The matrix -J is an M-matrix if two conditions hold: it has no positive
-    element off the diagonal, and every node becomes warmer when every node gains a little more heat. If -J is an
-    M-matrix, the equilibrium is stable. If all row sums of -J are positive, there is no second equilibrium. If hot
-    flanks get little oil, a row sum may be negative; such a case is solved nevertheless.
+    Eq. H18. J is the Jacobian of the residual. The equilibrium is stable if -J is an M-matrix. This means two things:
+    no element of -J off the diagonal is positive, and every node becomes warmer when every node gains a little more
+    heat. If all row sums of -J are positive, there is no second equilibrium. If hot flanks get little oil, a row sum
+    may be negative; the equilibrium is then computed nevertheless.
     """
     rises = np.zeros(network.size) if start is None else np.array(start, dtype=float)
     residual = network.residual(rises)
@@ -81,9 +81,9 @@ def jacobian(network: Network, rises: FloatArray, residual: FloatArray) -> Float
 def _descend(
     network: Network, step: FloatArray, rises: FloatArray, residual: FloatArray
 ) -> tuple[FloatArray, FloatArray, float]:
-    """Halve the step until the residual falls.
+    """Halve the step until the residual falls. If the step is within tolerance, the residual need not fall.
 
-    Returns the new rises, the new residual, and the share of the original step that was taken.
+    Returns the new temperature rises, the new residual, and the fraction of the original step that was taken.
     """
     size, share = float(np.abs(residual).max()), 1.0
     final = float(np.abs(step).max()) <= TOLERANCE
@@ -105,7 +105,10 @@ def _residual_where_defined(network: Network, rises: FloatArray) -> FloatArray |
 
 
 def _check_stability(network: Network, slopes: FloatArray) -> None:
-    """Raise NoSolution (`thermal_runaway`) if some node does not become warmer when every node gains one more watt."""
+    """Raise NoSolution (`thermal_runaway`) if the equilibrium is not stable.
+
+    The equilibrium is stable if every node becomes warmer when every node gains one more watt.
+    """
     response = np.linalg.solve(-slopes, np.ones(network.size))
     if float(response.min()) <= 0.0:
         node = network.nodes[int(np.argmin(response))]

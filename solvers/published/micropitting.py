@@ -66,9 +66,9 @@ A film ratio is film thickness divided by roughness. The keys are the kinematic 
 
 
 def asked_over_test() -> list[float]:
-    """Return one quotient of film ratios for each oil and load stage in `ASKED_FOR`.
+    """Return the permissible film ratios in `ASKED_FOR`, divided by the film ratios in the oil test.
 
-    The quotient is the permissible film ratio divided by the film ratio that the solvers compute for the oil test.
+    The film ratios in the oil test are computed by the solvers for the same oil and load stage.
     """
     return [
         ratio / oil_test.film_of_test(mineral(*oil), stage).ratio

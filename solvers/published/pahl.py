@@ -73,7 +73,7 @@ def concentration(misalignment_deg: float) -> float:
 
 
 def loaded(misalignment_deg: float) -> float:
-    """Return the number of teeth that carry load (Fig. 3)."""
+    """Return the number of teeth that carry load (Fig. 3 of Pahl 1978)."""
     return float(pahl(misalignment_deg).load_distribution.loaded_teeth)
 
 
@@ -121,7 +121,7 @@ def least_friction(crowning: float, low: float, high: float) -> tuple[float, flo
 
 
 def fraction(speed: float) -> float:
-    """Return the axial thrust at 0.05 deg of misalignment, divided by the coaxial thrust (Figs. 15, 16).
+    """Return the axial thrust at a misalignment of 0.05 deg, divided by the thrust of coaxial shafts (Figs. 15, 16).
 
     `speed` is the angular speed [1/s].
     """

@@ -37,7 +37,7 @@ def _hottest(number: int) -> float:
 
 
 def _relief(number: int) -> float:
-    """Return the share by which a groove reduces the temperature rise in the case `number`."""
+    """Return the fraction by which a groove reduces the temperature rise in case `number` of the paper."""
     return 1.0 - _rise(case(number, grooves=GROOVE)) / _rise(case(number))
 
 

@@ -50,7 +50,7 @@ class Statement:
 
 @record
 class Says:
-    """The words of a source. Every method makes a `Statement` from these words.
+    """A sentence of a source. Every method makes a `Statement` from this sentence.
 
     The argument `compute` of the methods is the function that computes the number with the solvers.
     """

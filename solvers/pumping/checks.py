@@ -86,11 +86,10 @@ def check_speed(pinion_speed: float) -> None:
 
 
 def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoReturn:
-    """Refuse a march that needs `excess` times the permitted number of steps.
+    """Raise InvalidInput for a calculation that needs `excess` times the permitted number of steps.
 
-    Raises InvalidInput. If a stretch between grooves is so short that its slices are very thin, the code is
-    narrow_land. Otherwise the code is too_many_steps. The message states the inputs with which the march would be
-    permitted.
+    The code is narrow_land if the grooves leave a part of the face so narrow that its slices are very thin. Otherwise
+    the code is too_many_steps. The message says how to change the inputs.
     """
     narrowest, widest = min(part.width for part in parts), max(part.width for part in parts)
     if narrowest < NARROW * widest:

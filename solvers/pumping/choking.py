@@ -80,12 +80,10 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
 
 
 class _Demand:
-    """Distance of a space from choking, as a function of the speed.
+    """Distance of a tooth space from choking, as a function of the logarithm of the pinion speed.
 
-    `radial` returns the logarithm of a ratio: the largest pressure divided by the pressure at which the radial gap
-    chokes. `axial` returns the logarithm of the exit Mach number. If `radial` returns at least 0, the radial gap is
-    choked. If `axial` returns at least 0, the exit is choked. The argument of both functions is the logarithm of the
-    pinion speed. The flow at a speed is computed only once.
+    `radial` returns ln(p/p_c), where p is the largest pressure and p_c is the pressure at which the radial gap chokes.
+    `axial` returns the logarithm of the exit Mach number. A result of at least 0 means that the gap or the exit chokes.
     """
 
     def __init__(self, mesh: Mesh, space: Space, slices: int) -> None:
@@ -110,9 +108,9 @@ class _Demand:
 
 
 def _scan(demands: list[_Demand], top: float) -> list[float]:
-    """Scan from the search limit down to a speed at which nothing chokes.
+    """Lower the pinion speed in steps until no tooth space chokes.
 
-    Return the logarithms of all speeds of the scan, in ascending order. `top` is the logarithm of the search limit.
+    `top` is the logarithm of the highest speed. Return the logarithms of all speeds, in ascending order.
     """
     speeds = [top]
     while any(max(demand.radial(speeds[-1]), demand.axial(speeds[-1])) >= 0.0 for demand in demands):
@@ -131,9 +129,9 @@ def _refuse_sealed(speed: float) -> NoReturn:
 
 
 def _find_lowest(demands: list[tuple[Excess, Excess]], scan: list[float]) -> float | None:
-    """Find the lowest speed at which a space chokes.
+    """Find the lowest pinion speed at which one of the tooth spaces chokes.
 
-    The speed is bracketed on the coarse grid, then refined on the fine grid.
+    The flow on a coarse grid brackets the speed. The flow on a fine grid then refines the speed.
     """
     roots = [(root, fine) for rough, fine in demands if (root := _find_coarse_root(rough, scan)) is not None]
     if not roots:
@@ -161,7 +159,10 @@ def _refine(excess: Excess, root: float, top: float) -> float | None:
 
 
 def _curves(mesh: Mesh, demands: list[_Demand], scan: list[float]) -> ChokingCurves:
-    """Return the curves of the coarse scan; every value is the largest over all spaces."""
+    """Return peak pressure ratio and exit Mach number at the speeds of the scan.
+
+    Every value is the largest value of all tooth spaces.
+    """
     return ChokingCurves(
         pinion_speed=frozen([exp(speed) for speed in scan]),
         peak_pressure_ratio=frozen(

@@ -26,7 +26,7 @@ class Closure(StrEnum):
 
 
 class Gap(StrEnum):
-    """Place of the radial clearances: the narrowest sections between the flanks, or the mating gear's tip corners."""
+    """Whether a radial gap lies at the narrowest section between the flanks, or at a tip corner of the mating gear."""
 
     CONTACT = "contact"
     TIP = "tip"

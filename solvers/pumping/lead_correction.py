@@ -96,10 +96,9 @@ def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: Floa
 
 
 def _elongation(position: FloatArray, strain: FloatArray) -> FloatArray:
-    """Return, at each position, the integral [m] of the strain from the end z = 0 of the face to this position.
+    """Return the growth in length [m] between the end z = 0 of the face and each position.
 
-    The strain is linear between two positions, even if a groove lies between these positions. From the end z = 0 to the
-    first position, the strain is constant and equal to the strain at the first position.
+    The strain is linear between two positions, and constant from the end z = 0 to the first position.
     """
     parts = 0.5 * (strain[1:] + strain[:-1]) * np.diff(position)
     elongation: FloatArray = strain[0] * position[0] + np.concatenate([[0.0], np.cumsum(parts)])

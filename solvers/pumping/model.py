@@ -50,7 +50,7 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
     Raises
     ------
     InvalidInput
-        With the codes of `spaces.prepare` and of `spaces.flow_at`, and speed_not_positive at standstill.
+        The codes of `spaces.prepare` and of `spaces.flow_at`; also `speed_not_positive` if the speed is not positive.
     NoSolution
         unphysical_state if the gas dynamics fails, newton_not_converged if the pocket chain fails.
 
@@ -114,16 +114,19 @@ def _geometry(mesh: Mesh) -> MeshGeometry:
 
 
 def _on_grids(mesh: Mesh, space: Space, speed: float, slices: int) -> Grids:
-    """Compute one stroke at the given resolution, and at half and a quarter of this resolution to estimate errors."""
+    """Compute one stroke on three grids: at the given resolution, and at half and a quarter of this resolution.
+
+    The difference between the grids shows the error of the result.
+    """
     flow = flow_at(mesh, space, speed, slices)  # this call comes first, because it refuses a march that is too long
     half, quarter = (coarser_flow_at(mesh, space, speed, slices, times) for times in (2, 4))
     return Grids(flow, half, quarter, _lead(mesh, space, speed))
 
 
 def _lead(mesh: Mesh, space: Space, speed: float) -> float:
-    """Compute `Grids.lead`: how far sound and the meshing line are apart, relative to the way of the meshing line.
+    """Compute `Grids.lead`: |c - v|/v, where c is the ambient speed of sound, and v the speed of the meshing line.
 
-    Only gas dynamics has waves. For the other flow models, return infinity.
+    For flow models without waves, return infinity.
     """
     if mesh.setup.model.flow is not Flow.GAS_DYNAMICS:
         return inf
@@ -171,7 +174,10 @@ def _rise(gas: Gas, temperature: FloatArray | None) -> FloatArray | None:
 
 
 def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | None, float | None]:
-    """Find position [m] and value [K] of the largest temperature rise, using a parabola through three slices."""
+    """Find the largest temperature rise [K] over the face, and its position [m].
+
+    The largest rise is the top of a parabola through the hottest slice and both neighbours of this slice.
+    """
     if rise is None:
         return None, None
     top = int(np.argmax(rise))
@@ -186,7 +192,10 @@ def _hottest(position: FloatArray, rise: FloatArray | None) -> tuple[float | Non
 
 
 def _mass_flow(grids: Grids, frequency: float, jumped: float) -> MassFlow:
-    """Compute the mass flow of successive strokes, and the uncertainty that resolution and jumps of the area cause."""
+    """Compute the mass flow of successive strokes, and its uncertainty.
+
+    The uncertainty has two causes: the limited resolution, and sudden changes of the area through which the gas flows.
+    """
     masses, ends = grids.flow.masses, grids.flow.ends
     return MassFlow(
         front=frequency * masses.front,
@@ -231,7 +240,7 @@ def _pinion_correction(mesh: Mesh, result: SpacesResult | None) -> LeadCorrectio
 
 
 def _pulsation(mesh: Mesh, flows: list[SpaceFlow], speed: float, frequency: float) -> Pulsation:
-    """Superpose the flows of both gears.
+    """Superpose the flows out of the tooth spaces of both gears.
 
     The wheel's spaces reach the line of centres half a mesh period after the pinion's spaces.
     """

@@ -9,17 +9,18 @@ chance. Therefore the estimate does three more things:
 
 - It uses a third grid, which has a quarter of the resolution.
 - It increases the uncertainty of an extreme by a fifth.
-- It includes lower local maxima that rise with the resolution, because such a maximum may become the extreme on a finer
+- It includes smaller local peaks that grow with the resolution, because such a peak may become the extreme on a finer
   grid.
 
 In a test, 800 random gear pairs were computed again with twice the number of slices. Only one result changed by more
 than its uncertainty. This change was 1 % larger than the uncertainty.
 
-Two grids may also agree on an extreme but not on the pressure around it, because both grids damp the waves alike.
-Therefore the difference of the pressures close to an extreme is included. If the meshing line moves along the face
-about as fast as sound, the waves ahead of this line are confined to a layer that is thinner than the slices of the
-coarser grids. The coarser grids then agree with each other although they do not resolve the waves. In this case the
-estimate does not assume an order of convergence.
+Even if two grids agree on an extreme, they may differ in the pressures close to it. Therefore the difference of these
+pressures is included.
+
+If the meshing line moves along the face about as fast as sound, the waves ahead of this line are confined to a thin
+layer. If the slices of the coarser grids are thicker than this layer, the coarser grids agree with each other although
+they do not resolve the waves. In this case the estimate does not assume an order of convergence.
 """
 
 from math import expm1
@@ -42,7 +43,7 @@ LOST = 1.0  # if a pressure has this relative uncertainty, a finer grid may give
 
 
 class Grids(NamedTuple):
-    """One stroke at the full resolution, at half and at a quarter of this resolution.
+    """Flow in a tooth space over one stroke, at the full resolution, at half and at a quarter of this resolution.
 
     `lead` is |c - v|/v, where c is the ambient speed of sound, and v is the speed of the meshing line along the face.
     For flow models without waves, `lead` is infinite.
@@ -95,9 +96,9 @@ def resolution(gas: Gas, spaces: list[Grids]) -> Resolution:
 def behind_jumps(resolved: Resolution, gas: Gas, flows: list[SpaceFlow], jumps: list[float]) -> Resolution:
     """Raise the uncertainties to at least the effect of jumps of the area.
 
-    A higher resolution does not reduce this effect. A jump of the logarithm of the area raises the pressure of the gas
-    by the share that `compressed` returns. The jump changes the Mach number as much as a wave with this pressure rise
-    does. If the pressure rise is as large as the gauge pressure, no result is certain.
+    A higher resolution does not reduce this effect. `compressed` returns the relative rise of the gas pressure that a
+    jump of the logarithm of the area causes. The effect on the Mach number is that of a wave with this pressure rise.
+    If the pressure rise is as large as the gauge pressure, no result is certain.
     """
     peak, low, mach = resolved.peak_pressure, resolved.min_pressure, resolved.axial_mach
     shares = [compressed(gas, jump) for jump in jumps]
@@ -123,13 +124,12 @@ def compressed(gas: Gas, jump: float) -> float:
 
 
 def net_uncertainty(grids: Grids, jumped: float) -> float:
-    """Estimate the uncertainty of the net mass [kg] that passes an end in a stroke.
+    """Estimate the uncertainty of the net mass [kg] that passes an end of the tooth space in a stroke.
 
-    The estimate compares the flow with the flow at half the resolution. The net mass is the difference between outflow
-    and inflow. Outflow and inflow change with the resolution, but by chance their difference may change little. The
-    uncertainty is therefore at least the change of the outflow plus the change of the inflow. If jumps of
-    the area change the pressure by the share `jumped`, the uncertainty is also at least this share of all mass that
-    passes the ends.
+    The net mass is the difference between outflow and inflow. The estimate compares the flow with the flow at half the
+    resolution. Outflow and inflow may change with the resolution although their difference hardly changes. The
+    uncertainty is therefore at least the change of the outflow plus the change of the inflow. The uncertainty is also
+    at least the share `jumped` of all mass that passes the ends. Jumps of the area change the pressure by this share.
     """
     here, there = grids.flow.ends, grids.halved.ends
     ends = ((here.front, there.front), (here.rear, there.rear))
@@ -140,7 +140,7 @@ def net_uncertainty(grids: Grids, jumped: float) -> float:
 
 
 def radial_uncertainty(grids: Grids, jumped: float) -> float:
-    """Estimate the uncertainty of the net mass [kg] that leaves the space in radial direction in a stroke.
+    """Estimate the uncertainty of the net mass [kg] that leaves the tooth space in radial direction in a stroke.
 
     The estimate is at least the result of `net_uncertainty`.
     """
@@ -149,7 +149,7 @@ def radial_uncertainty(grids: Grids, jumped: float) -> float:
 
 
 def _shares(gas: Gas, grids: Grids) -> dict[str, float]:
-    """Estimate the relative uncertainties of the results of one space."""
+    """Estimate the relative uncertainties of the results of one tooth space."""
     fine, half, quarter = (_summary(gas, flow) for flow in (grids.flow, grids.halved, grids.quartered))
     shares = {name: _relative(value, half[name], quarter[name]) for name, value in fine.items()}
     for name, reach in _reaches(gas, grids).items():
@@ -174,7 +174,7 @@ def _side_by_side(gas: Gas, fine: SpaceFlow, coarse: SpaceFlow) -> tuple[FloatAr
 def _difference(here: FloatArray, there: FloatArray) -> float:
     """Compute the root mean square difference of two fields.
 
-    The result includes only the points at which both fields are near their maxima.
+    Only points at which both fields are near their maxima count.
     """
     close = (here >= CLOSE * here.max()) & (there >= CLOSE * there.max())
     return float(np.sqrt(np.mean((here - there)[close] ** 2))) if close.any() else 0.0
@@ -208,10 +208,9 @@ def _reaches(gas: Gas, grids: Grids) -> dict[str, float]:
 def _mach_reach(fine: SpaceFlow, half: SpaceFlow) -> float:
     """Estimate how large the Mach number may become if the space is divided into more slices.
 
-    The estimate is for the largest Mach number in the slices and at the ends of the space. The Mach number of a choked
-    end is 1 on every grid. As the slices get shorter, the Mach number in the slices beside an end approaches the Mach
-    number of the end. The Mach number in a slice may also rise above the Mach number of the end. The estimate can
-    therefore be higher than the Mach number of the end.
+    The Mach number is computed in the slices and at the ends of the space. At a choked end it is 1 on every grid. The
+    Mach number in the slices beside an end approaches the Mach number of the end as the slices get shorter. It may also
+    rise above the Mach number of the end, and the estimate takes this rise into account.
     """
     slices, end = float(fine.peak_mach.max()), fine.largest_mach
     if slices == end:
@@ -235,10 +234,10 @@ def _profiles(gas: Gas, flow: SpaceFlow) -> dict[str, FloatArray]:
 
 
 def _reach(position: FloatArray, here: FloatArray, coarse: FloatArray, there: FloatArray, times: float = RISE) -> float:
-    """Estimate the value that the largest maximum over the face may reach with more slices.
+    """Estimate how large the values over the face may become with more slices.
 
-    From the coarse to the fine grid, every local maximum has risen by a certain amount. With more slices, every local
-    maximum is assumed to rise further. The further rise is this amount multiplied by the factor `times`.
+    Every local peak has grown by a certain amount from the coarse to the fine grid. With more slices, every peak is
+    assumed to grow further by `times` this amount. The result is the largest of all peaks after this growth.
     """
     edged = np.pad(here, 1, constant_values=-np.inf)
     tops = (here >= edged[:-2]) & (here >= edged[2:])
@@ -257,7 +256,7 @@ def _relative(value: float, half: float, quarter: float) -> float:
 
 
 def _of(error: float, value: float) -> float:
-    """Return an error relative to `value`, or 0 if `value` is not positive."""
+    """Return an error divided by `value`, or 0 if `value` is not positive."""
     return error / value if value > 0.0 else 0.0
 
 

@@ -45,12 +45,11 @@ class Stroke:
 
 @record
 class MassFlow:
-    """Mass flow out of the spaces of one gear [kg/s].
+    """Mass flow out of the tooth spaces of one gear [kg/s].
 
-    The first five values are the net flows through the five exits. These five values add up to 0, see `ExitMasses`. The
-    next four values are the outflow and the inflow at each end. The last two values are uncertainties of net flows. The
-    net flow of an end is a small difference between outflow and inflow; its relative uncertainty can therefore be
-    large.
+    The first five values are the net flows through the five exits; their sum is 0, see `ExitMasses`. The next four
+    values are the outflow and the inflow at both ends of the face. The last two values are uncertainties of net flows.
+    The relative uncertainty can be large if the net flow is a small difference between outflow and inflow.
     """
 
     front: float = quantity("net mass flow at the front", "m_f", unit="g_per_s", text="at the end that meshes first")
@@ -100,11 +99,10 @@ class Balance:
 class Resolution:
     """Relative uncertainties of the results due to the resolution.
 
-    Uncertainties of pressures are relative to the gauge pressure. The resolution is the number of slices in gas
-    dynamics, the number of steps in the pocket chain, and the number of positions in the incompressible model. If the
-    area of a space jumps, the pressure changes by a relative amount. No uncertainty is then smaller than this amount.
-    `temperature_rise` is None if the flow model gives no temperatures. Uncertainties of the net flows are in
-    `MassFlow`.
+    The resolution is the number of slices in gas dynamics, of steps in the pocket chain, and of positions in the
+    incompressible model. Uncertainties of pressures are relative to the gauge pressure. If the area of a tooth space
+    jumps, all uncertainties are at least as large as the relative jump of the pressure. `temperature_rise` is None if
+    the flow model gives no temperatures. `MassFlow` contains the uncertainties of the net flows.
     """
 
     peak_pressure: float = quantity("uncertainty of the peak pressure", text="of the largest gauge pressure")
@@ -203,10 +201,10 @@ class SpacesResult:
 
 @record
 class Totals:
-    """Power of the selected spaces [W], meshing frequency [Hz], and speed of the meshing point along the face [m/s].
+    """Power of the selected tooth spaces [W], meshing frequency [Hz], and axial speed of the meshing point [m/s].
 
-    `axial_meshing_mach` is `axial_meshing_speed` divided by the ambient speed of sound. For spur gears both values are
-    None, because the whole face of a spur gear meshes at once.
+    `axial_meshing_mach` is `axial_meshing_speed` divided by the ambient speed of sound. For spur gears these two values
+    are None, because the whole face meshes at once.
     """
 
     pumping_power: float = quantity("pumping power", "P", unit="w")
@@ -242,7 +240,7 @@ class Derived:
 class PumpingResult:
     """Results of a pumping calculation at one operating point.
 
-    `slices` is the number of slices outside the grooves. `lead_correction` is valid for a pinion that warms as much as
+    `slices` is the number of slices outside the grooves. `lead_correction` is only valid if the pinion warms as much as
     the gas.
     """
 
@@ -280,7 +278,7 @@ class ChokingCurves:
 
 @record
 class ChokingSpeeds:
-    """Lowest pinion speeds [rad/s] at which the flow becomes sonic; None if the speed is above the search limit."""
+    """Lowest pinion speeds [rad/s] at which the flow becomes sonic; None if there is none up to the search limit."""
 
     radial_choking_speed: float | None = quantity(
         "radial choking speed",

@@ -84,7 +84,7 @@ def derived(mesh: Mesh) -> Derived:
 
 
 def _active_share(space: Space, face_width: float) -> float:
-    """Compute the largest length of a space that is in its stroke at one time, divided by the face width."""
+    """Compute the largest fraction of the face width over which a tooth space is in its stroke at the same time."""
     limits, lag = space.table.limits, space.lag * face_width
     return min((limits.end - limits.start) / lag, 1.0) if lag > 0.0 else 1.0
 
@@ -125,12 +125,11 @@ def flow_at(
 
 
 def coarser_flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int, times: int) -> SpaceFlow:
-    """Compute the stroke of `flow_at` at a resolution that is `times` times lower.
+    """Compute the same stroke as `flow_at`, but at a resolution that is `times` times lower.
 
-    Gas dynamics gets fewer slices, and also fewer recorded angles, so that its steps can be longer: a step ends at the
-    next recorded angle at the latest. The pocket chain gets fewer steps, but not fewer pockets, because the number of
-    pockets is a constant of the model. The incompressible model gets fewer positions. Raises the errors of `flow_at`
-    except too_many_steps and narrow_land.
+    Gas dynamics gets fewer slices and fewer recorded angles. The pocket chain gets fewer steps, but the same number of
+    pockets. The incompressible model gets fewer positions. Raises the errors of `flow_at` except too_many_steps and
+    narrow_land.
     """
     if mesh.setup.model.flow is Flow.INCOMPRESSIBLE:
         return _single_pocket(mesh, space, pinion_speed, space.table.coarser(times))
@@ -160,7 +159,7 @@ def _gas_ducts(mesh: Mesh, space: Space, pinion_speed: float, parts: list[Stretc
 
 
 def _check_cost(mesh: Mesh, pinion_speed: float, parts: list[Stretch], limit: int) -> None:
-    """Refuse a speed at which the march would take too many steps in the spaces of one gear."""
+    """Refuse a speed at which gas dynamics would take too many steps in the tooth spaces of one of the gears."""
     largest_cost = max(
         cell_steps(mesh.gas, _gas_ducts(mesh, space, pinion_speed, parts), _angles(mesh, space))
         for space in mesh.spaces
@@ -211,7 +210,7 @@ def space_duct(mesh: Mesh, space: Space, pinion_speed: float, part: Stretch, *, 
 
 
 def _angles(mesh: Mesh, space: Space) -> FloatArray:
-    """Return the angles of the owner [rad] at which fields are recorded.
+    """Return the angles of the gear [rad] at which the flow in its tooth spaces is recorded.
 
     The first angle is the start of the stroke at the end of the face that meshes first. The last angle is the end of
     the stroke at the other end of the face.

@@ -1,7 +1,7 @@
 """Peak pressure and exit Mach number over the pinion speed.
 
-All speeds of a scan together may take as many steps as the longest permitted solution at one speed. A low speed needs
-more steps. If the permitted number of steps is too small, gas dynamics uses fewer slices at this speed.
+The total number of steps is limited for all speeds together. Low speeds need more steps than high speeds. If the steps
+do not suffice at a low speed, gas dynamics uses fewer slices.
 """
 
 import numpy as np

@@ -95,8 +95,9 @@ class RollPositions(NamedTuple):
     """Roll positions [m] in one base pitch, in ascending order.
 
     `corner` marks the roll positions that are corners (see `roll_positions`); loads may change abruptly at a corner.
-    `side` is 0 for helical gears. The contact length of spur gears jumps at a corner. For spur gears every corner
-    therefore occurs twice: with side -1 for the limit from below, and with side +1 for the limit from above.
+
+    The contact length of a spur gear jumps at a corner. Every corner of a spur gear therefore occurs twice: `side` is
+    -1 for the limit from below, and +1 for the limit from above. At all other roll positions `side` is 0.
     """
 
     phase: FloatArray
@@ -143,7 +144,7 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
     phase : float
         The x of the line at y = 0 [m].
     side : float
-        For a spur gear, 0 selects the line itself, 1 selects a line at a slightly larger x, and -1 selects a line at a
+        For a spur gear, 0 tests the line itself, 1 tests a line at a slightly larger x, and -1 tests a line at a
         slightly smaller x. For a helical gear, `side` has no effect.
 
     Returns
@@ -155,10 +156,9 @@ def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, fl
 
     Notes
     -----
-    Eq. L3: the line is x = phase - y tan beta_b. The line of a spur gear is in contact if the line that `side` selects
-    lies on the path. `side` therefore matters only if the line lies at an end of the path. The line of a helical gear
-    is not in contact if it touches the rectangle only at a corner. Otherwise rounding errors would decide whether the
-    line affects the least gap of the unloaded teeth.
+    Eq. L3: the line is x = phase - y tan beta_b. The line of a spur gear is in contact if the tested line lies on the
+    path of contact. `side` matters only if the line lies at an end of the path. The line of a helical gear is not in
+    contact if it touches the rectangle only at a corner, because rounding errors would otherwise decide the result.
     """
     if plane.tan_base_helix == 0.0:
         nudged = phase + side * COINCIDENT * plane.base_pitch

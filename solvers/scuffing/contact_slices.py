@@ -142,11 +142,10 @@ def _parts(
 
 @kernel
 def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, table: Slices) -> Cover:
-    """Fill the table with slices of all lines at a roll position.
+    """Cut all contact lines at a roll position into slices, and write the slices to the table.
 
     The slices cover only those stretches of a line where the gap is below `reach` [m]. Every covered line has at least
-    `slices` slices. Some lines have more slices, because the number of slices per stretch is rounded up. No slice
-    contains a kink of the gap.
+    `slices` slices. No slice contains a kink of the gap.
     """
     plane, zones = mesh.plane, np.empty((MOST_EDGES * MOST_ZONES, 2))
     count, length, least, most = 0, 0.0, np.inf, -np.inf
@@ -168,10 +167,9 @@ def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, tab
 
 @inlined_kernel
 def _range(mesh: Mesh, line: float, zone: FloatArray, table: Slices, first: int, last: int) -> tuple[float, float]:
-    """Return the least and the largest gap [m] on a stretch.
+    """Return the least and the largest gap [m] on a stretch of a contact line.
 
-    `zone` contains the first and the last y [m] of the stretch. The stretch consists of the slices `first` to
-    `last` - 1.
+    `zone` contains the first and the last y [m] of the stretch, which consists of the slices `first` to `last` - 1.
     """
     low, high = zone
     at_low, at_high = gap_on_line(mesh.gap, mesh.plane, line, low), gap_on_line(mesh.gap, mesh.plane, line, high)
@@ -194,11 +192,10 @@ def _range(mesh: Mesh, line: float, zone: FloatArray, table: Slices, first: int,
 def _beside(
     mesh: Mesh, line: float, table: Slices, end: tuple[float, float], at_end: float, middle: int, following: int
 ) -> float:
-    """Return the least gap [m] in a half of the first or the last slice of a stretch.
+    """Return the least gap [m] between the end of a stretch and the middle of the slice at this end.
 
-    This half extends from the end of the stretch to the middle of the slice. `end` contains two values: the y [m] of
-    the end of the stretch, and the step in y [m] that leads from this end across the whole slice. `at_end` is the gap
-    [m] at this end. `middle` is the index of the slice at this end, and `following` is the index of the next slice.
+    `end` contains the y [m] of the end, and the step in y [m] from the end across the slice. `at_end` is the gap [m] at
+    the end. `middle` is the index of the slice at the end, and `following` is the index of the next slice.
     """
     y, step = end
     if table.gap[middle] > table.gap[following]:
@@ -297,10 +294,10 @@ def survey_slices(mesh: Mesh, table: Slices, count: int, error: float, survey: S
 
 @kernel
 def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Survey, i: int) -> None:
-    """Update the peaks of roll position i with the loads at the ends of the lines and at the kinks of the gap.
+    """Update the largest load and pressure of roll position i with the loads at ends of lines and at kinks of the gap.
 
-    `error` is the transmission error TE [m] at this roll position. A line that meets only a corner of the plane of
-    action has no length; such a corner counts as the end of the line.
+    `error` is the transmission error TE [m] at this roll position. A contact line that only touches a corner of the
+    plane of action has its end at this corner.
     """
     plane, edges, log_load = mesh.plane, np.empty(MOST_EDGES), 0.0
     overlap = plane.face_width * plane.tan_base_helix

@@ -103,9 +103,9 @@ def _respond(
 
     At every roll position the force at station a is the sum of w dl hat_a over the slices, where hat_a is the hat
     function of the station. The derivative is k k^T / (1^T k) - P, where P_ab = sum (dw/ddelta) dl hat_a hat_b,
-    k = P 1, and 1 is the vector of ones. Forces and derivatives are multiplied by `share`. The `share` of a roll
-    position is cos beta_b times the weight of this position in the average over the base pitch. The factor cos beta_b
-    converts the forces to transverse forces. Returns the largest relative residual of the load balance.
+    k = P 1, and 1 is the vector of ones. `share` holds a factor for each roll position. This factor is the weight of
+    the position in the average over the base pitch, times cos beta_b for the transverse component of the force.
+    Returns the largest relative residual of the load balance.
     """
     table, worst = slice_table(mesh, slices), 0.0
     springs = np.zeros(spread.size)
@@ -136,7 +136,7 @@ def _spread(
     derivative: FloatArray,
     springs: FloatArray,
 ) -> None:
-    """Distribute the loads and the stiffnesses of all slices over the stations, at a roll position with known loads."""
+    """Add the loads of all slices at a roll position to the stations, and likewise the stiffnesses."""
     steps_per_metre = (spread.size - 1) / mesh.plane.face_width
     for n in range(count):
         if table.load[n] <= 0.0:

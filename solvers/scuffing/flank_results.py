@@ -42,10 +42,9 @@ def face_load_factor(balance: LoadBalance, y: float) -> float:
     -----
     Eq. L17: K_Hbeta is the largest value of q(y) = int w dx / p_bt divided by the mean value of q. This definition
     follows the idea of ISO 6336-1, annex E. The mean value of q is computed from the transmitted force and the face
-    width. To find the largest value, q is first computed at equidistant places, at kinks of the gap and at `y`, without
-    substeps between roll positions. Then q is computed on finer grids around the place with the largest q. If lines are
-    loaded over a part of their length only, q without substeps is inexact. In this case, finer grids are also used
-    around up to two other local maxima of q that are nearly as large as the largest q.
+    width. To find the largest value, q is first computed on a coarse grid that contains `y`, and then on finer grids
+    around the largest value. If a contact line is loaded over a part of its length only, the values of q on the coarse
+    grid are inexact. Finer grids are then also used around up to two further local maxima that are nearly as large.
     """
     plane = balance.mesh.plane
     evenly = np.linspace(0.0, plane.face_width, FACE_POINTS)
@@ -62,9 +61,9 @@ def _in_part(balance: LoadBalance) -> bool:
 
 
 def tops(values: FloatArray) -> list[int]:
-    """Return the indices of the local maxima that are nearly as large as the largest value.
+    """Return the indices of the largest value and of those local maxima that are nearly as large.
 
-    The indices are sorted by the values of the maxima, in ascending order.
+    The local maxima are in ascending order, so that the index of the largest value is the last.
     """
     edged = np.concatenate([[-np.inf], values, [-np.inf]])
     local = np.flatnonzero((values > edged[:-2]) & (values >= edged[2:]) & (values >= NEARLY * values.max()))
@@ -72,7 +71,10 @@ def tops(values: FloatArray) -> list[int]:
 
 
 def _largest_around(balance: LoadBalance, places: FloatArray, top: int) -> float:
-    """Return the largest force per face width [N/m] between the two neighbours of the place with the index `top`."""
+    """Return the largest force per face width [N/m] near the point `places[top]` of the face.
+
+    The search extends to the neighbouring points in `places`.
+    """
     for _ in range(ZOOMS):
         low, high = places[max(top - 1, 0)], places[min(top + 1, places.size - 1)]
         places = _apart(np.append(np.linspace(low, high, ZOOM_POINTS), places[top]))
@@ -82,7 +84,7 @@ def _largest_around(balance: LoadBalance, places: FloatArray, top: int) -> float
 
 
 def _apart(places: FloatArray) -> FloatArray:
-    """Return the places in ascending order; drop a place if it differs from the next place only by rounding."""
+    """Sort the positions on the face, and drop a position that differs from the next position only by rounding."""
     ascending = np.sort(places)
     return np.asarray(ascending[np.append(np.diff(ascending) > SAME * (ascending[-1] - ascending[0]), True)])
 
@@ -97,9 +99,8 @@ def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) ->
     y : ndarray
         Distances from the end that meshes first [m].
     substeps : int, optional
-        Number of substeps per step between roll positions. Substeps are used only if at least one contact line
-        is loaded over only a part of its length. The load at a place of the face may then begin or end between two roll
-        positions.
+        Number of substeps between neighbouring roll positions. If all contact lines are loaded over their whole
+        length, one step is used instead.
 
     Returns
     -------
@@ -116,11 +117,11 @@ def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) ->
 
 @kernel
 def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int, y: FloatArray) -> FloatArray:
-    """Integrate the load along the path from A to E by the trapezoidal rule, for every place y of the face.
+    """Integrate the line load along the path from A to E by the trapezoidal rule, for every y.
 
-    At every roll position (and substep), a contact line passes the place y at a certain x. The rule uses the loads at
-    these points. If the transmission error jumps at a roll position, the point of this roll position is used twice:
-    with the transmission error before the jump and with the transmission error after the jump.
+    The rule uses the points x at which a contact line passes y, at all roll positions and substeps. If the
+    transmission error jumps at a roll position, the point is used twice: with the error before the jump and with the
+    error after the jump.
     """
     plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
     across = lead_gaps(form, y)

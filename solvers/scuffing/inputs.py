@@ -279,12 +279,12 @@ class Modifications:
 class Model:
     """Options of the physical model.
 
-    `tooth_stiffness` is "ishikawa" for Ishikawa's tooth, or "parabola" for a stiffness that is a parabola along the
-    path. The maximum of the parabola equals the maximum stiffness of Ishikawa's tooth. `parabola_end_ratio` is the
-    stiffness at A and E divided by the maximum; its default makes the loads agree with the paper's load maxima.
-    `contact` selects the compliance of the contact: "hertzian" for half-spaces (Weber, Johnson), or "linear" for the
-    paper's linear term. `section` selects the section of the tooth that is used to compute the bending.
-    `load_convention` is "exact" to use F_bn in the load balance, or "paper" to use F_bt (Eq. 1).
+    `tooth_stiffness` is "ishikawa" for Ishikawa's tooth. It is "parabola" for a stiffness that is a parabola along the
+    path with the same maximum. `parabola_end_ratio` is the stiffness at A and E divided by the maximum; its default
+    makes the largest loads agree with those in the paper. `contact` is "hertzian" to compute the compliance of the
+    contact for half-spaces (Weber, Johnson), or "linear" to use the paper's linear term. `section` selects the section
+    of the tooth that is used to compute the bending. `load_convention` is "exact" to use F_bn in the load balance, or
+    "paper" to use F_bt (Eq. 1).
     """
 
     tooth_stiffness: ToothModel = quantity(
@@ -415,12 +415,13 @@ class ScuffingTest:
 class Temperatures:
     """Bulk temperature of the teeth, oil temperature and scuffing temperature [K].
 
-    The oil enters the contact at the bulk temperature. If `bulk_method` is "given", `bulk` is the given bulk
-    temperature. If `bulk_method` is "estimated", the bulk temperature follows from the oil temperature, the oil supply
-    and Blok's flash temperature; `bulk` is None before this estimate. If `bulk_method` is "heat_balance", the heat
-    balance computes the temperatures `flanks` of both flanks [K], and the bulk temperature is their mean. The scuffing
-    temperature is a property of oil and material; the paper states no value. The user gives either the scuffing
-    temperature or the result of a scuffing test. Without either of these there is no safety factor.
+    If `bulk_method` is "given", the bulk temperature `bulk` is an input. If it is "estimated", the bulk temperature
+    follows from the oil temperature, the oil supply and Blok's flash temperature; `bulk` is None before this estimate.
+    If it is "heat_balance", the heat balance computes the temperatures `flanks` of both flanks [K], and `bulk` is their
+    mean. The oil enters the contact at the bulk temperature.
+
+    The scuffing temperature is a property of oil and material. The user gives either the scuffing temperature or the
+    result of a scuffing test. If neither is given, there is no safety factor.
     """
 
     bulk: float | None = quantity(
@@ -485,10 +486,9 @@ class Temperatures:
 
     @property
     def surfaces(self) -> tuple[float, float] | None:
-        """Bulk temperatures of pinion and wheel [K].
+        """Bulk temperatures of pinion and wheel [K]: the value of `flanks`, or twice `bulk` if `flanks` is None.
 
-        If `flanks` is known, the value is `flanks`. Otherwise both temperatures are `bulk`. If `bulk` is also None, the
-        value is None.
+        The value is None if `flanks` and `bulk` are both None.
         """
         if self.flanks is not None or self.bulk is None:
             return self.flanks
@@ -519,11 +519,10 @@ class FlankSurfaces:
 class MicropittingCheck:
     """Inputs of the checks against micropitting and wear.
 
-    The inputs describe the micropitting test of the oil, and the surfaces and the quality of the flanks.
-    `permissible_ratio`, the permissible film ratio, may be given instead of the test. If `material_factor` is given, it
-    replaces the material factors of both surfaces; otherwise the smaller of these two factors is used. If neither a
-    failure load stage nor a permissible ratio is given, no safety factor is computed; the film is still computed.
-    `quality_grade` is only used for the load sharing of method B.
+    The inputs describe the micropitting test of the oil, and the surfaces and the quality of the flanks. The
+    permissible film ratio `permissible_ratio` may be given instead of the test. If neither is given, only the film is
+    computed, and no safety factor. If `material_factor` is None, the smaller of the material factors of both surfaces
+    is used. `quality_grade` is only used for the load sharing of method B.
     """
 
     failure_load_stage: int | None = quantity(

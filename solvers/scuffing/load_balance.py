@@ -92,7 +92,7 @@ def _secant_start(table: Slices, count: int, logarithmic: float, force: float) -
 
 @kernel
 def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple[float, float, float, float]:
-    """Take one iteration step for the load of every slice, at the transmission error `error` [m].
+    """Improve the load of every slice by one iteration step, at the transmission error `error` [m].
 
     Returns four values: the force [N]; the derivative of the force with respect to `error` [N/m]; an estimate of the
     inaccuracy of the force [N]; and the distance of `error` from the nearest kink [m]. The force is inaccurate as long
@@ -333,11 +333,11 @@ def _settle(
 ) -> tuple[Cover, float, float, float]:
     """Solve the balance of a roll position at which lines are loaded over a part of their length only.
 
-    `at` contains phase and side of the roll position. The start value `error` is the TE [m] of slices that cover whole
-    lines. Every pass determines the parts of the lines that are loaded at the TE of the previous pass. The pass cuts
-    only these parts into slices, and solves the balance again. The load is zero at the ends of a loaded part. An error
-    of TE in one pass therefore causes only a second-order error in the next pass. Returns the `Cover` of the slices in
-    the last pass, TE [m], the relative residual, and the number of steps.
+    `at` contains the phase and the side of the roll position (see `RollPositions`). The start value `error` is the TE
+    [m] of slices that cover whole lines. Every pass cuts into slices only the parts of the lines that are loaded at the
+    TE of the previous pass, and solves the balance again. The load is zero at the ends of a loaded part. An error of TE
+    in one pass therefore causes only a second-order error in the next pass. Returns the `Cover` of the slices in the
+    last pass, TE [m], the relative residual, and the number of steps.
     """
     covers, steps, settled = 0, 0.0, False
     phase, side = at
@@ -387,12 +387,12 @@ def _balance(
 def error_at(
     plane: ContactPlane, phase: FloatArray, error: FloatArray, x: float, y: float, index: int
 ) -> tuple[float, int]:
-    """Return the transmission error for a point (x, y), and the index of the step in which this error lies.
+    """Return the transmission error at a point (x, y), and the index of the step from which this error is taken.
 
-    The transmission error is the error at the roll position at which a contact line passes through the point. A step
-    lies between two neighbouring roll positions of the balance. Within a step, the transmission error is interpolated
-    linearly. The search for the step begins at the step `index`. If the point lies at the end of the path, the
-    transmission error is the value just before the contact line leaves the path.
+    The contact line through the point belongs to one roll position. The result is the transmission error at this roll
+    position. A step lies between two neighbouring roll positions of the balance. Within a step, the transmission error
+    is interpolated linearly. The search for the step begins at the step `index`. At the end of the path, the result is
+    the value just before the contact line leaves the path.
     """
     line = min(x, plane.path_length * (1.0 - BESIDE)) + y * plane.tan_base_helix
     position = line - int(line / plane.base_pitch) * plane.base_pitch

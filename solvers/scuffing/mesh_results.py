@@ -28,9 +28,9 @@ HARMONICS = 5  # number of harmonics, chosen
 def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:
     """Return the load sharing at distances x [m] from A, or None if ISO/TR 13989-1 has no diagram for the pair.
 
-    The load sharing is the load sharing factor X_Gamma times the buttressing factor X_but. Narrow gears
-    (eps_gamma < 2) have the X_Gamma of spur gears of quality 7 or better. For wide gears X_Gamma is 1 / eps_alpha. The
-    standard has no diagram for eps_alpha < 1, and no diagram for spur gears with eps_alpha >= 2.
+    The result is the load sharing factor X_Gamma times the buttressing factor X_but. If eps_gamma is below 2, X_Gamma
+    is that of spur gears of quality 7 or better. Otherwise X_Gamma is 1 / eps_alpha. The standard has no diagram for
+    eps_alpha < 1, and no diagram for spur gears with eps_alpha >= 2.
     """
     ratio = path.transverse_contact_ratio
     if ratio < 1.0 or (path.overlap_ratio == 0.0 and ratio >= 2.0):
@@ -56,9 +56,9 @@ def _narrow(x: FloatArray, length: float, double: float) -> FloatArray:
 def _buttressing(path: PathOfContact, x: FloatArray) -> FloatArray:
     """Return the buttressing factor of helical teeth; the factor is 1 for spur gears.
 
-    Helical teeth carry more load near the ends of the path than in the middle. The factor is 1 + 0.3 min(eps_beta, 1)
-    at A and E. From A and from E towards the middle of the path, the factor falls linearly to 1. It reaches 1 where the
-    profile parameter Gamma differs by 0.2 sin beta_b from its value at A or E (Eq. 15).
+    Helical teeth carry more load near the ends A and E of the path of contact than in the middle. At A and E, the
+    factor is 1 + 0.3 min(eps_beta, 1). Towards the middle, the factor falls linearly, and reaches 1 where the profile
+    parameter Gamma differs by 0.2 sin beta_b from its value at A or E (Eq. 15).
     """
     plane = path.plane
     ramp = 0.2 * plane.tan_base_helix * plane.cos_base_helix * path.pitch_point
@@ -132,7 +132,7 @@ def standard_stiffness(
 def _standard_line_load(path: PathOfContact, load: Load) -> float:
     """Return the line load F_t K_A/b [N/m], with F_t at the reference circle.
 
-    Without load, return the line load for which ISO 6336-1 states c'.
+    Without load, return `REFERENCE_LOAD`.
     """
     tangential = load.application_factor * load.torque / path.pair.pinion.reference_radius
     return tangential / path.plane.face_width if tangential > 0.0 else REFERENCE_LOAD
@@ -175,10 +175,10 @@ def mesh_stiffness(balance: LoadBalance, tangential_force: float) -> FloatArray 
 def stiffness(
     path: PathOfContact, balance: LoadBalance, inputs: LoadDistributionInputs, mean_load: float, tangential_force: float
 ) -> Stiffness:
-    """Return the stiffness of the mesh, and the stiffness of one pair of teeth along the path.
+    """Return the stiffness of the mesh, and the stiffness of one pair of teeth along the path of contact.
 
-    The stiffness of one pair is the secant stiffness at the mean line load `mean_load` [N/m]. If this load is 0, the
-    secant stiffness at the line load `REFERENCE_LOAD` is returned instead.
+    The stiffness of one pair is the secant stiffness at the mean line load `mean_load` [N/m], or at `REFERENCE_LOAD` if
+    `mean_load` is 0.
     """
     secant_load = mean_load if mean_load > 0.0 else REFERENCE_LOAD
     single = single_stiffness(balance.mesh.compliance, secant_load)

@@ -181,10 +181,7 @@ def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
 
 
 def _contact_lines(lengths: ContactLengths, balance: LoadBalance) -> ContactLines:
-    """Return the results on the total contact length: least, largest and mean length, and a curve.
-
-    The curve contains the total length at every roll position. The other values are computed in closed form.
-    """
+    """Return least, largest and mean total length of the contact lines, and the total length at every roll position."""
     phase = balance.rolls.phase
     return ContactLines(
         min_length=lengths.minimum,

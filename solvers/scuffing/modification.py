@@ -17,9 +17,9 @@ MOST_EDGES = 6  # largest number of edges: two ends of the line, two end reliefs
 
 @kernel
 def place_of(x: float, points_per_metre: float, points: int) -> tuple[int, float]:
-    """Return the index of the last point before x, and the distance from this point to x as a share of the step.
+    """Return the number of the table point before x, and the distance from this point to x in steps.
 
-    The points are equidistant and start at 0; the step is the distance between neighbouring points.
+    The points of the table are equidistant and start at x = 0. A step is the distance between neighbouring points.
     """
     position = x * points_per_metre
     index = min(max(int(position), 0), points - 2)
@@ -28,14 +28,14 @@ def place_of(x: float, points_per_metre: float, points: int) -> tuple[int, float
 
 @kernel
 def interpolated(table: FloatArray, place: tuple[int, float]) -> float:
-    """Interpolate linearly in the table, whose values belong to equidistant points; `place` comes from `place_of`."""
+    """Interpolate linearly in a table of values at equidistant points; `place` is a result of `place_of`."""
     index, share = place
     low, high = float(table[index]), float(table[index + 1])
     return low + share * (high - low)
 
 
 class Gap(NamedTuple):
-    """Gap Delta(x, y) along the transverse line of action; amplitudes and lengths in [m].
+    """Parameters of the gap Delta(x, y) between the flanks; amplitudes and lengths in [m].
 
     `lead` is the gap [m] of the lead curve at equidistant points of the face, from end to end.
     """
@@ -59,9 +59,9 @@ class Gap(NamedTuple):
 def gap(modifications: Modifications, path: PathOfContact) -> Gap:
     """Return the gap that the modifications cause; a relief without a given length gets a default length.
 
-    The paper states no lengths. By default tip and root relief are g_alpha - p_bt long, so that the tip relief ends at
-    D, and the root relief ends at B (long relief). But a default length is never less than a tenth of the path, and
-    never more than half of the path. The default length of the end relief is a tenth of the face width.
+    The paper states no lengths. The default length of tip and root relief is g_alpha - p_bt (long relief): the tip
+    relief ends at D, and the root relief ends at B. This length is limited to values between a tenth and half of the
+    path. The default length of the end relief is a tenth of the face width.
     """
     width = path.pair.inputs.face_width
     long_relief = min(max(path.length - path.pair.transverse_base_pitch, 0.1 * path.length), 0.5 * path.length)
@@ -158,7 +158,7 @@ def _relief(amplitude: float, length: float, distance: float, exponent: float) -
 
 @kernel
 def profile_gap(form: Gap, x: float) -> float:
-    """Compute the part of the gap that depends on the place along the path.
+    """Compute the part of the gap that depends on the distance x along the path.
 
     Parameters
     ----------
@@ -184,7 +184,7 @@ def profile_gap(form: Gap, x: float) -> float:
 
 @kernel
 def lead_gap(form: Gap, y: float) -> float:
-    """Compute the part of the gap that depends on the place on the face.
+    """Compute the part of the gap that depends on the distance y along the face.
 
     Parameters
     ----------
@@ -210,9 +210,9 @@ def lead_gap(form: Gap, y: float) -> float:
 
 @kernel
 def lead_gaps(form: Gap, y: FloatArray) -> FloatArray:
-    """Return the part of the gap Delta [m] that depends on the place on the face.
+    """Return the part of the gap Delta [m] that depends on y, for several values of y.
 
-    The places y [m] are distances from the end that meshes first.
+    y [m] is the distance along the face from the end that meshes first.
     """
     gaps = np.empty(y.size)
     for i in range(y.size):
@@ -231,9 +231,9 @@ def gap_at(form: Gap, x: float, y: float) -> float:
 
 @kernel
 def _insert(edges: FloatArray, count: int, y: float) -> int:
-    """Insert y into the `count` ascending edges, and return the new number of edges.
+    """Insert y into the first `count` values of `edges`, which are in ascending order. Return the new number of edges.
 
-    The edges do not change if y does not lie between the first and the last edge.
+    If y does not lie between the first and the last edge, `edges` does not change.
     """
     if not edges[0] < y < edges[count - 1]:
         return count
@@ -249,9 +249,9 @@ def _insert(edges: FloatArray, count: int, y: float) -> int:
 def smooth_parts(form: Gap, line: float, tan_base_helix: float, ends: tuple[float, float], edges: FloatArray) -> int:
     """Divide a contact line into parts on which the gap is smooth.
 
-    The contact line is x = `line` - y `tan_base_helix`. `edges` receives, in ascending order, the y [m] of both ends of
-    the contact line and of every kink between these ends. A kink is a place at which a relief begins, or at which both
-    end reliefs meet. The kinks at the points of a lead curve are left out. Return the number of edges, which is at most
+    The contact line is x = `line` - y `tan_base_helix`. The gap has a kink where a relief begins, and where both end
+    reliefs meet. `edges` receives the y [m] of both ends of the contact line and of all kinks between the ends, in
+    ascending order. The kinks at the points of a lead curve are left out. Return the number of edges, which is at most
     `MOST_EDGES`.
     """
     length = min(form.end_relief_length, 0.5 * form.face_width)

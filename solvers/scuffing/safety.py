@@ -179,13 +179,12 @@ def _lines(
 ) -> tuple[list[_Line], _Line | None]:
     """Return the list of lines to check, and the profile line through the hottest point.
 
-    The feature line is always in the list. The profile line is in the list only if it is clearly hotter than the
-    feature line (`AS_HOT`). The second result is the profile line even if the profile line is not in the list. If
-    `hottest` is None, there is no profile line, and the second result is None.
+    The list contains the feature line. It also contains the profile line if the profile line is clearly hotter than the
+    feature line (`AS_HOT`). The second result is always the profile line, or None if `hottest` is None.
 
-    Every line has equidistant points and, in addition, its hottest point. The feature line also has the point with the
-    thinnest film (Dowson and Higginson). Without the added points, the largest flash temperature and the thinnest film
-    would depend on the number of points.
+    Each line has equidistant points and its own hottest point. The feature line also has the point with the thinnest
+    film (Dowson and Higginson). These additional points make the largest flash temperature and the thinnest film
+    independent of the number of points.
     """
     line_at = partial(_line_at, inputs.distribution, distribution, film_at)
     even = np.linspace(0.0, 1.0, inputs.path_points)
@@ -212,10 +211,9 @@ def _lines(
 def _or_along(distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Peak:
     """Return `thinnest`, or the thinnest film on the profile line `line` if this film is thinner.
 
-    Both films are computed by the formula of Dowson and Higginson. This function is called even if the profile line is
-    not checked, because a spur pair and its mirror image must have the same thinnest film. The feature line runs
-    across the flank of the mirror image in the other direction. The profile line of one of the two pairs may therefore
-    be hotter than the feature line and be checked, while the profile line of the other pair is not checked.
+    Both films are computed by the formula of Dowson and Higginson. A spur pair and its mirror image must have the same
+    thinnest film, but it is possible that the profile line is checked in only one of the two pairs. The function is
+    therefore called whether the profile line is checked or not.
     """
     if np.isnan(line.film).all():
         return thinnest
@@ -251,7 +249,7 @@ def _contact_temperature(
 def _with_band(
     temperatures: Temperatures, heat: Heat, flash: Flash, safety: Safety | None
 ) -> tuple[Heat, Safety | None]:
-    """Add the range of the safety factor to `heat.band`, and base the verdict on the smallest safety factor."""
+    """Add the range of the safety factor to `heat.band`. Base the verdict on the lower end of this range."""
     if safety is None or safety.blok_factor is None or flash.blok_max is None or heat.band is None:
         return heat, safety
     contacts = [sum(flanks) / 2 + flash.blok_max for flanks in heat.flank_cases]

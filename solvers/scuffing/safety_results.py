@@ -95,9 +95,8 @@ class Flash:
 class ContactTemperature:
     """Bulk temperature t_M and largest contact temperature t_B = t_M + t_f [K] (Eq. 16).
 
-    t_f is the flash temperature; t_B is None if t_f is None. By thermal EHL, t_B is the larger of two temperatures: the
-    temperature of the pinion and the temperature of the wheel. The temperature of a gear is the sum of the bulk
-    temperature of this gear and the flash temperature of this gear.
+    t_f is the flash temperature; t_B is None if t_f is None. By thermal EHL, pinion and wheel have different flash
+    temperatures, and may have different bulk temperatures. t_B is then the temperature of the hotter gear.
     """
 
     bulk: float = quantity(
@@ -241,11 +240,9 @@ class ThermalPath:
     """The thermal EHL solution at the points of a line; temperatures [K], films [m], pressure [Pa], friction [-].
 
     All arrays except `flash_bound` and `film_bound` are NaN at points that are not solved under their own load. If the
-    solver refuses a point because the load is too light, the point is solved under the lightest load that the solver
-    accepts.
-    `flash_bound` [K] and `film_bound` [m] are the flash temperature and the film of the point under this lightest load.
-    The real flash temperature of the point is not higher than `flash_bound`, and the real film is not thinner than
-    `film_bound`.
+    load at a point is too light for the solver, the point is solved under the lightest load that the solver accepts.
+    This solution gives an upper bound of the flash temperature, `flash_bound` [K], and a lower bound of the film,
+    `film_bound` [m].
     """
 
     status: tuple[PointStatus, ...]

@@ -410,10 +410,10 @@ def linear_contact_compliance(pinion: Solid, wheel: Solid) -> float:
 
 
 def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid) -> Member:
-    """Return a gear of the pair, with the bending compliance of the tooth in the selected section.
+    """Return a gear of the pair with the bending compliance of its teeth.
 
-    `section` is the gear that `section_gear` returns for `gear`. The bending is computed with the tooth of `section`. A
-    load point has the same height above the reference circle in both gears.
+    The bending is computed with the tooth of `section`, the gear that `section_gear` returns for `gear`. The load point
+    has the same height above the reference circle in both gears.
     """
     radius = np.hypot(gear.base_radius, roll_length)
     points = load_points(section, section.reference_radius + radius - gear.reference_radius)
@@ -421,16 +421,16 @@ def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid)
 
 
 def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tuple[FloatArray, float, float]:
-    """Return offset [1/Pa] and slope [1/Pa] of the half-space contact, and the contact's least contribution to omega.
+    """Return offset and slope [1/Pa] of the half-space compliance, and the contact's least contribution to omega.
 
-    Johnson (1985) and Weber state the compliance of the half-spaces:
+    Johnson (1985) and Weber state the compliance of the contact between two half-spaces:
     delta_H / w = sum_i (1 - nu_i^2)/(pi E_i) [2 ln(2 d_i / b_H) - nu_i/(1 - nu_i)],  b_H^2 = 8 w R_n/(pi E').
     Here b_H is the half width of the contact, R_n is the reduced radius, E' is the reduced modulus, and d_i is the
     `depth` of the load point of gear i in the transverse section (see `LoadPoints`).
-    As a function of the load w, this compliance is offset - slope ln w. The docstring of this module explains omega.
-    The contribution of the contact to omega is the compliance divided by the slope, which is offset / slope - ln w.
-    This contribution decreases as the load increases. The least contribution is computed with d_i = `SHALLOWEST` b_H
-    for both gears.
+    This compliance equals offset - slope ln w, where w is the load.
+    The contact contributes offset / slope - ln w to omega. The docstring of this module defines omega. The contribution
+    decreases as the load increases. The least contribution is the contribution if d_i is `SHALLOWEST` b_H for both
+    gears.
     """
     modulus = reduced_modulus(members[0].material, members[1].material)
     radius = np.maximum(reduced_radius(path.plane, x), LEAST_RADIUS * path.pair.inputs.normal_module)
@@ -449,8 +449,8 @@ def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tu
 def _parabola(fraction: FloatArray, end_ratio: float) -> FloatArray:
     """Return the ratio of the stiffness to its maximum, 1 - (1 - r)(2 xi - 1)^2.
 
-    r is `end_ratio`, and xi is `fraction`, the fraction of the path from A. With r = 0.757 the loads agree with the
-    paper's load maxima.
+    Here r is `end_ratio`, and xi is `fraction`, the distance from A divided by the length of the path. With r = 0.757
+    the largest loads agree with the largest loads in the paper.
     """
     return np.asarray(1 - (1 - end_ratio) * (2 * fraction - 1) ** 2)
 
@@ -512,9 +512,8 @@ def line_load_near(
     The symbols are defined at the top of this module. The equation omega - ln omega = A/a + ln(a / delta) is solved by
     the iteration of Fritsch, Shafer and Crowley (1973) for Lambert's function. This iteration needs one logarithm per
     step and converges from any guess. After a step, the error of omega is of the order of the fourth power of the step.
-    The derivative is dw/d(delta) = 1 / (a (omega - 1)). The guess is given as ln w and not as omega, because ln w
-    changes less than omega between neighbouring roll positions. If `approach` exceeds `limit`, the returned ln w
-    belongs to `limit`.
+    The guess is given as ln w, because ln w changes less than omega between neighbouring roll positions. If `approach`
+    exceeds `limit`, the returned ln w belongs to `limit`.
     """
     if approach <= 0.0:
         return 0.0, 0.0, log_load, 0.0

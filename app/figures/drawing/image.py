@@ -75,8 +75,7 @@ class Place(NamedTuple):
     """Position of the axes of a panel in the image.
 
     `box` holds left, top, width and height as fractions of the image. `x` describes the abscissa, and `y` describes the
-    ordinate. The first two items of `x` and of `y` are the ends of the axis. The third item is True if the axis is
-    logarithmic.
+    ordinate: the two ends of the axis, and True if the axis is logarithmic.
     """
 
     panel: Panel

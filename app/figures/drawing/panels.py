@@ -202,9 +202,9 @@ def _bar_style(role: Role, color: str) -> Style:
 
 
 def _draw_bars(axes: Axes, bars: Line, beside: list[Line]) -> None:
-    """Draw the bars of the series `bars`. `beside` holds all series that share the places on the abscissa.
+    """Draw the bars of the series `bars`.
 
-    The bars of these series stand beside one another. `beside` includes `bars`.
+    `beside` holds all series of bars in the panel, including `bars`. At each abscissa, their bars stand side by side.
     """
     pitch = float(np.diff(bars.x).min()) if len(bars.x) > 1 else 1.0
     width = BAR_SHARE * pitch / len(beside)
@@ -342,8 +342,8 @@ def _edges(along: Values, log: bool) -> Values:
 def _draw_levels(axes: Axes, panel: Panel) -> None:
     """Draw limits as dashed red lines, references as dotted grey lines, and zero as a grey line.
 
-    The line at zero is drawn if the ordinate is a magnitude, or if the values have both signs. If a level lies outside
-    the axes, an arrow after its name points towards the level.
+    The line at zero is drawn if the ordinate is a magnitude, or if the values have both signs. If a limit or a
+    reference lies outside the axes, an arrow after its name points towards it.
     """
     if panel.map is None and not panel.rows and not panel.y.log and panel.y.limits is None:
         low, high = axes.dataLim.intervaly
@@ -370,25 +370,27 @@ def _draw_levels(axes: Axes, panel: Panel) -> None:
 
 
 def _level_style(limit: bool) -> Style:
-    """Return the style of the line of a limit if `limit` is True, else the style of a reference line."""
     if limit:
         return {"color": LIMIT, "linestyle": (0, (5.0, 2.5)), "linewidth": 1.3}
     return {"color": rcParams["axes.labelcolor"], "linestyle": (0, (1.0, 2.0)), "linewidth": 1.0}
 
 
 def _name(axes: Axes, text: str, xy: tuple[float, float], xycoords: Any = "data", **style: Any) -> None:
-    """Write a text for a point, on a patch in the background colour. `place_texts` later moves the text."""
+    """Write a text on a patch in the background colour, at the point that the text names.
+
+    `place_texts` later moves the text beside the point.
+    """
     style = {"textcoords": "offset points", "in_layout": False, "zorder": 6, "annotation_clip": False, **style}
     if text:
         axes.annotate(text, xy, (0, 0), xycoords, bbox=patch(), **style)
 
 
 def _keep_clear(axes: Axes, text: Text, room: Bbox, points: list[Bbox], rings: list[Bbox]) -> None:
-    """Move the text of an area to a place in the area that is clear of the points and of the texts of the points.
+    """Move the text of an area to a free position in the area.
 
-    `points` holds the boxes around the points with their texts, and `rings` holds the boxes around the points alone. If
-    no place is clear of `points`, a place that is clear of `rings` is used. If there is no such place either, the text
-    is not moved.
+    A position is free if the text there overlaps no box in `points`. These boxes enclose points together with their
+    texts. If no position is free, overlaps with texts are permitted: the text must then only avoid the boxes in
+    `rings`, which enclose the points alone. If this is not possible either, the text is not moved.
     """
     box = text.get_window_extent()
     inset = INSET * axes.figure.dpi / 72.0
@@ -483,10 +485,10 @@ def _lead(axes: Axes, text: Annotation, size: BboxBase, place: tuple[float, floa
 
 
 def _hidden(curve: Path, box: Bbox, near: Bbox) -> float:
-    """Return the cost of a text whose box lies over a curve or close to a curve.
+    """Return the penalty for the position of a text that hides a curve or stands close to a curve.
 
-    The box `near` is larger than the box of the text. The cost grows with the width of the part of the curve that lies
-    in `near`.
+    `box` is the box of the text, and `near` is this box with a margin. The penalty grows with the width of the part of
+    the curve that lies in `near`.
     """
     x, y = np.asarray(curve.vertices).T
     inside = x[(x > near.x0) & (x < near.x1) & (y > near.y0) & (y < near.y1)]
@@ -495,12 +497,11 @@ def _hidden(curve: Path, box: Bbox, near: Bbox) -> float:
 
 
 def _places(kind: str, size: BboxBase, room: BboxBase, point: float) -> Iterator[tuple[tuple[float, float], float]]:
-    """Yield the positions that are tried for a text, each position with its cost.
+    """Yield positions to try for a text, each position with a penalty.
 
-    Positions are in pixels, relative to the point of the text. The cost grows with the distance from this point. The
-    name of a horizontal line (`row`) may stand anywhere along the line, above or below the line. The name of a vertical
-    line (`column`) stays on the line or directly beside the line, and may move down. `point` is the size of a
-    typographic point in pixels.
+    A text names a point, a horizontal line (`row`) or a vertical line (`column`). Positions are in pixels, relative to
+    this point or to the end of this line. The penalty grows with the distance. `point` is the size of a typographic
+    point in pixels.
     """
     gap = (ROW_REACH if kind == "row" else LEAST_REACH) * point
     if kind == "row":

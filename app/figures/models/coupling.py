@@ -60,7 +60,10 @@ def _around(which: str, value: float) -> tuple[float, float]:
 
 
 def _ticks(low: float, high: float) -> list[float]:
-    """Return the ticks of an axis: `low`, `high`, and the powers of ten well below `low` or well above `high`."""
+    """Return the ticks of an axis of the map: the outermost boundaries `low` and `high`, and the powers of ten beyond.
+
+    A power of ten has no tick if it is close to a boundary.
+    """
     decades = (10.0**exponent for exponent in range(-12, 13))
     return sorted({low, high, *(decade for decade in decades if decade <= low / 1.9 or decade >= high * 1.9)})
 

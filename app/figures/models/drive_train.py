@@ -219,10 +219,9 @@ def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def _locus(x: float, y: float, reaction: Vector2) -> tuple[Values, Values]:
-    """Return the path on which a growing load moves a journal from the middle of the clearance to (x, y).
+    """Return the path of a journal whose load grows from zero to the full load without changing its direction.
 
-    The point (x, y) is the displacement of the journal under the full load. The displacement and the path are divided
-    by the clearance. The direction of the load does not change.
+    The path begins in the middle of the clearance and ends at (x, y). All displacements are divided by the clearance.
     """
     load = atan2(-reaction[1], -reaction[0])
     side = copysign(1.0, sin(atan2(y, x) - load))

@@ -76,8 +76,8 @@ def _summed(
 ) -> dict[str, float]:
     """Sum the heat flows of each carrier, and return the sums [kW]. The largest sum comes first.
 
-    `names` holds the names of the carriers in the figure. If `origins` is given, only flows from these places count. If
-    `targets` is given, only flows to these places count.
+    `names` holds the names of the carriers in the figure. If `origins` is given, only flows that start at these places
+    of the network are added. If `targets` is given, only flows that end at these places are added.
     """
     powers: dict[str, float] = {}
     for flow in heat.flows:
@@ -196,7 +196,10 @@ def over_the_oil_flow(heat: Heat, curve: FlowCurve, oil: float, scuffing: tuple[
 
 
 def _flank_change(heat: Heat, curve: FlowCurve) -> str:
-    """Return a text that states the temperature of the pinion's flank at twice the oil flow."""
+    """Return a text with two temperatures of the pinion's flank: at twice the oil flow, and at the present oil flow.
+
+    If there is no solution at twice the oil flow, the text has only the temperature at the present oil flow.
+    """
     double = float(np.interp(2.0, FLOWS, curve.pinion_flank)) - KELVIN
     if np.isnan(double):
         return f"pinion flank {number(heat.pinion.flank, '°C')}"
@@ -209,9 +212,9 @@ def _factors(scuffing: float, oil: float, contact: Values) -> Values:
 
 
 def _verdicts(factors: Values) -> list[Level]:
-    """Return two levels of the safety factor: high risk below the first level, low risk above the second level.
+    """Return the lines that mark high risk and low risk in a figure of the safety factor.
 
-    The second level is left out if no safety factor exceeds the mean of the two levels.
+    The line for low risk is left out if no safety factor comes near it.
     """
     levels = [Level(HIGH_RISK_BELOW, "high risk below 1", limit=True)]
     if float(np.nanmax(factors)) > (HIGH_RISK_BELOW + LOW_RISK_ABOVE) / 2:

@@ -47,8 +47,8 @@ def over_flank(
 ) -> Panel:
     """Return a map of the values `grid` over the flank; `width` is the face width [m].
 
-    If `largest` is given and not zero, a mark shows this value. The mark stands at the place `at`. If `at` is None, the
-    mark stands at the largest value of the map.
+    If `largest` is given and not zero, the map has a mark with this number. `at` is the position of the mark; if `at`
+    is None, the mark stands at the largest value of `grid`.
     """
     y = flank.face_fraction * width / MM
     ends = 0.0, max(float(np.nanmax(grid, initial=0.0)), largest or 0.0) or 1.0
@@ -104,7 +104,7 @@ def _modified(flank: Flank) -> Values:
 def traces(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Draw profile and helix charts. Removed material is drawn downwards.
 
-    Each chart shows one gear as if this gear alone were modified. The profiles are taken at the middle of the face, and
+    Each chart assumes that the whole modification is on one gear. The profiles are taken at the middle of the face, and
     are drawn over the diameter of the gear. The helix is taken at the middle of the profile.
     """
     flank, path = result.flank, meshing_path(inputs.gears)

@@ -27,8 +27,7 @@ FILM_OVER_ROUGHNESS = "film over roughness"
 def solve_unmodified(inputs: ScuffingInputs, *_: Scuffing) -> Scuffing | None:
     """Solve the pair in closed form without its modifications and misalignment.
 
-    Return None if the pair has neither modifications nor misalignment. The quantities of the result are in the units in
-    which pages show these quantities.
+    Return None if the pair has neither modifications nor misalignment. The result is in the units that pages show.
     """
     if inputs.distribution.modifications == Modifications():
         return None
@@ -57,7 +56,7 @@ def answered(answer: Micropitting | None) -> Micropitting:
 
 
 class _Case(NamedTuple):
-    """A pair in the figure: its title, its least film ratio, and the maps of its flank."""
+    """A gear pair in the figure, with or without its modifications: title, least film ratio and maps over the flank."""
 
     title: str | None
     local: LocalFilm

@@ -65,9 +65,9 @@ def temperature_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def _maps(inputs: PumpingInputs, result: PumpingResult, name: str, scale: Scale, *critical: Level) -> list[Panel]:
-    """Return maps of a quantity over face and angle, one for the tooth spaces of each gear, with marks at the extremes.
+    """Return a map of the quantity `name` over face and angle for the tooth spaces of each gear.
 
-    `name` is the name of the quantity. The maps have the same scale of colours.
+    The greatest value is marked, and in maps of a ratio also the least. All maps have the same scale of colours.
     """
     fields = {gear: space.field for gear, space in spaces(result)}
     grids: list[Values] = [getattr(field, name) for field in fields.values()]
@@ -106,10 +106,9 @@ def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves)
 
     Lines show the pressure and the Mach number at which the flow becomes sonic. Further lines show the choking speeds.
 
-    The exit Mach number is the Mach number after an expansion to ambient pressure. But if the gas in the outermost
-    slice is itself supersonic, the Mach number in this slice is drawn instead. (The gas in a slice can be supersonic
-    only in the gas-dynamics model.) The Mach number in the slice is smaller than the Mach number after an expansion.
-    The curve therefore bends at the speed at which the gas in the outermost slice becomes supersonic.
+    The exit Mach number is the Mach number after an expansion to ambient pressure. In the gas-dynamics model, the gas
+    in the outermost slice can itself be supersonic. The Mach number in this slice is then drawn instead. This Mach
+    number is smaller, so the curve bends where the gas becomes supersonic.
     """
     critical, mach, peak = critical_ratio(inputs.setup), curves.exit_mach, curves.peak_pressure_ratio
     clearances = [Level(critical, f"clearances sonic, {number(critical)}", limit=True)]
@@ -243,10 +242,9 @@ def pulsation(_: PumpingInputs, result: PumpingResult) -> Figure:
 def mass_flow(_: PumpingInputs, result: PumpingResult) -> Figure:
     """Draw the mass flows of the tooth spaces.
 
-    At each end of the face, three flows are drawn: the outflow, the inflow and the net outflow. For the radial
-    clearances and for the grooves, only the net outflow is drawn. The last bar is the sum of two mass flows. The first
-    is the loss of mass between two strokes, when ambient gas replaces the gas in a slice. The second is the mass flow
-    from slices in their stroke to slices outside their stroke.
+    Three bars belong to each end of the face: outflow, inflow and net outflow. For radial clearances and grooves, only
+    the net outflow is drawn. The last bar is the sum of two further mass flows: the mass lost between two strokes, when
+    ambient gas replaces the gas in a slice, and the flow from slices in their stroke to slices outside their stroke.
     """
     exits = {gear: _exits(space) for gear, space in spaces(result)}
     still = all(abs(row.value) < NO_FLOW for rows in exits.values() for row in rows)

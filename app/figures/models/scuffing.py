@@ -135,10 +135,10 @@ def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
 
 
 def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Callable[[ScuffingPath], Panel]) -> Figure:
-    """Return a figure with a panel for each evaluated line. All panels have the same scale.
+    """Return a figure with a panel for each evaluated line. The panels have the same ordinate.
 
-    `panel` makes the panel of a line. The points A to E of the path of contact, and the ranges with warnings, are added
-    to the panel.
+    `panel` makes the panel of a line. This function adds the points A to E of the path of contact, and the ranges with
+    warnings.
     """
     points, panels = _points(inputs, result), list[Panel]()
     for path in _paths(result).values():

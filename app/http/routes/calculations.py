@@ -38,8 +38,8 @@ class FigureSummary(BaseModel):
 async def calculated(http: Request, path: str, function: Callable[..., bytes], request: Model) -> bytes:
     """Run `function(path, request)` in a worker and return the result.
 
-    Raises WarmingUp if the endpoint is not ready. Raises Unprocessable if the request would take too long. Also raises
-    the errors of the function and of the pool.
+    Raises WarmingUp if the endpoint is not ready, and Unprocessable if the request would take too long. The errors of
+    the function and of the workers are also raised.
     """
     http.app.state.start_up.require(path)
     refuse_endless(BY_PATH[path], request, http.app.state.settings.deadline_s)

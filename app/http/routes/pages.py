@@ -182,7 +182,7 @@ def _kept(http: Request, path: str) -> Asked:
 
 
 async def _shown(http: Request, asked: Asked, view: Callable[..., views.Shown], *arguments: Any) -> views.Shown:
-    """Have a worker make a view of a case, and return the view.
+    """Return a view of a case that a worker makes.
 
     Keep the answers that the worker used, so that other views of the case can reuse these answers.
     """

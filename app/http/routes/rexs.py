@@ -33,7 +33,7 @@ UPLOAD_WITH_REQUEST = _body((), request={"type": "string", "description": "the s
 
 
 class Upload(NamedTuple):
-    """The content and the name of a file, and the request that was sent with the file. The name may be empty."""
+    """An uploaded file: its content, its name, which may be empty, and the request sent with the file."""
 
     content: bytes
     name: str = ""
@@ -93,10 +93,9 @@ async def ask_for_unit(http: Request) -> Response:
 
 @pages.post("/rexs", response_class=HTMLResponse)
 async def open_unit(http: Request) -> Response:
-    """Redirect to the page of the unit. The back button of the browser can then return to the page of the unit.
+    """Read a file and redirect to the page of its gear unit.
 
-    If the page is too large to keep, the answer is the page itself instead of a redirection. If the file cannot be
-    read, the answer states the reason.
+    If the page is too large to keep, answer with the page itself. If the file cannot be read, answer with the reason.
     """
     root = root_of(http)
     try:
@@ -124,7 +123,6 @@ async def show_unit(http: Request, name: str) -> Response:
 
 
 def _key(root: str, name: str) -> str:
-    """Return the key of the page of a unit. The key contains `root`, the prefix of the page's links."""
     return f"unit {name} {root}"
 
 

@@ -25,7 +25,7 @@ READING_S = 10.0  # additional time after the deadline of the study for a client
 
 
 class StudyStream(StreamingResponse):
-    """A response that sends each line of a study as soon as the line exists.
+    """A response that sends every result line of a study as soon as this line is computed.
 
     The study ends if the client leaves, or if the client has not read all lines within `seconds`.
     """
@@ -49,9 +49,10 @@ async def planned(http: Request, planner: Callable[[int, float], Any], most: int
 
 
 async def begun(http: Request, study: Study, progress_s: float = PROGRESS_S) -> tuple[Lines, Clock]:
-    """Begin a study that is already counted among the running studies. Return its lines and its `Clock`.
+    """Begin a study, and return the generator of its result lines and its clock.
 
-    The clock holds the running time of the study and the number of solved points.
+    A result line is one object of the streamed answer. The clock holds the running time of the study and the number of
+    solved points. The study must already be counted among the running studies.
     """
     clock = Clock(study.total)
     lines = study.lines(await http.app.state.studies.pool(), clock)
@@ -66,7 +67,10 @@ async def streamed(
     headers: dict[str, str] | None = None,
     progress_s: float = PROGRESS_S,
 ) -> Response:
-    """Return the response with the lines of a study. The study counts as running until the response ends."""
+    """Return a response that streams the results of a study.
+
+    The study counts as running until the response ends.
+    """
     with ExitStack() as stack:
         stack.enter_context(http.app.state.studies.place())
         content = pieces(*await begun(http, study, progress_s))
@@ -76,7 +80,7 @@ async def streamed(
 
 
 async def started(http: Request, kind: type[Study], body: BaseModel, written_as: Format = "ndjson") -> Response:
-    """Check a study in a worker, then return the response with the stream of its lines."""
+    """Check a study in a worker, then return a response that streams the results of the study."""
     study: Study = await planned(http, partial(kind, body), getattr(http.app.state.settings, kind.most))
     http.app.state.start_up.require(study.question.endpoint)
     encode = study.encoder(written_as)

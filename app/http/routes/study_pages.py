@@ -1,4 +1,7 @@
-"""Pages of studies, and the files of these pages. A page is sent piece by piece while the lines of its study arrive."""
+"""Pages of studies, and the files of these pages.
+
+A page is sent piece by piece while the results of its study arrive.
+"""
 
 import asyncio
 from collections.abc import Callable
@@ -40,7 +43,7 @@ router = APIRouter(include_in_schema=False, dependencies=[Depends(not_from_anoth
 
 
 def _add(calculation: Calculation, own: type[StudyPage]) -> None:
-    """Add the page of one kind of study of a calculation, with the lines, figures and report of the study."""
+    """Add the page of one kind of study of a calculation, with the results, figures and report of the study."""
     path = f"{page_path(calculation)}/{own.link.name}"
     policy = {"Content-Security-Policy": pages.DOCUMENT_POLICY}
 
@@ -91,14 +94,14 @@ async def _page(http: Request, calculation: Calculation, own: type[StudyPage], p
 
 
 async def _planned(http: Request, own: type[StudyPage], asked: Asked, view: Callable[..., Any]) -> Any:
-    """Call `view` in a worker for the case `asked` and the kind of study `own`, and return what `view` returns."""
+    """Return the result of `view` for the case `asked` and the study `own`; `view` runs in a worker."""
     if asked.pairs:
         http.app.state.start_up.require(asked.calculation.path)
     return await planned(http, partial(view, own, asked), getattr(http.app.state.settings, own.plan.most))
 
 
 async def _made(http: Request, study: StudyPage, view: Callable[..., bytes | str], *arguments: Any) -> bytes:
-    """Run a study to its end, have a worker make a view of its lines, and return the view.
+    """Run a study to its end, let a worker make a page or file from the results, and return this page or file.
 
     Raises StudyEnded if the study ends with an error. Raises HTTPException with the reason if there is nothing to show.
     Raises ClientGone if the client leaves; the study then ends too.

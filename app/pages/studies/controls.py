@@ -18,7 +18,7 @@ Options = tuple[tuple[str, str], ...]
 
 
 class Control(NamedTuple):
-    """A control of the form and the part of the body that it sets.
+    """A control of the form, and the part of the request body that the control sets.
 
     Attributes
     ----------
@@ -60,7 +60,10 @@ def body_of(controls: Iterable[Control], typed: Mapping[str, str]) -> dict[str, 
 
 
 def _put(place: Any, parts: list[str], value: Any) -> None:
-    """Set a value at the end of a path; append to a list if the path names the position after the list's last item."""
+    """Set a value at the end of a path through nested dictionaries and lists.
+
+    If the path names the position after the last item of a list, append to the list.
+    """
     for part, following in zip(parts, [*parts[1:], None], strict=True):
         key: Any = int(part) if isinstance(place, list) else part
         inner: Any = value if following is None else [] if following.isdecimal() else {}
@@ -74,19 +77,19 @@ def _put(place: Any, parts: list[str], value: Any) -> None:
 
 
 def texts_of(controls: Iterable[Control], body: Any) -> dict[str, str]:
-    """Return the texts that `body_of` would convert into the parts of this body.
+    """Return the text of each control from which `body_of` would make this body.
 
-    Texts of default values are left out.
+    Controls that have their default value are left out.
     """
     values = ((control, value_at(body, control.path)) for control in controls if control.sets)
     return {control.name: text_of(value) for control, value in values if value is not None and value != control.default}
 
 
 def control_at(controls: Sequence[Control], path: str) -> str:
-    """Return the name of the control that sets the part of the body at `path`.
+    """Return the name of the control at which an error of the request body is shown. `path` is the place of the error.
 
-    If no control sets this part, take the nearest enclosing part that a control sets. If there is no such part, return
-    the path. If several controls set the same part, the last of these controls counts.
+    This is the control that sets the part of the body at `path`, or else the nearest part that encloses it. If no
+    control sets such a part, return the path. If several controls set the same part, the last of these controls counts.
     """
     parts = path.split(".")
     names = {control.path: control.name for control in controls}

@@ -71,17 +71,16 @@ class Table(NamedTuple):
 
     @property
     def right(self) -> list[bool]:
-        """For each of the columns, whether it contains numbers."""
+        """Whether each of the columns contains numbers. Columns of numbers are aligned to the right."""
         return [isinstance(heading, Number) for heading in self.head]
 
 
 @dataclass(frozen=True, slots=True)
 class Result:
-    """The result of a study in the order of the page: the `first` tables, the figures, then the other tables.
+    """The result of a study. The page shows the tables in `first`, then the figures, then the other tables.
 
     `answer` is a sentence that answers the question of the study. `leads` are links above the result. `script` is JSON
-    for the script of the page. This script opens the case of a point if the user clicks on the point in the first
-    figure.
+    for the script of the page. With this script, a click on a point in the first figure opens the case of this point.
     """
 
     progress: str
@@ -153,7 +152,7 @@ class StudyPage(ABC):
 
     @abstractmethod
     def result(self, lines: list[Line]) -> Result:
-        """Return the result that the lines of the study's answer contain.
+        """Return the content of the result that the page shows, from the lines of the study's answer.
 
         If the page `grows`, this method is also called with the lines that have arrived so far.
         """
@@ -169,14 +168,14 @@ class StudyPage(ABC):
     def declared(self) -> tuple[Control, ...]:
         """Return all controls except the menu of outputs. A control states which part of the body it sets.
 
-        The page of a rejected query also uses these controls, so this method does not raise errors.
+        This method must not raise errors, because the page of a rejected query needs the controls, too.
         """
         return ()
 
     def given(self) -> dict[str, Any]:
         """Return the parts of the body that the declared controls set.
 
-        The text in a control gives the value. If a control has no text, its default value is used.
+        An empty control sets its default value.
         """
         return body_of(self.declared(), self.views)
 
@@ -200,7 +199,7 @@ class StudyPage(ABC):
 
     @cached_property
     def output(self) -> Leaf:
-        """The output that is shown; raises Unprocessable if the query names no numeric output."""
+        """The output that the page shows. Raises Unprocessable if the query names an output that is not a number."""
         path = self.views.get("show") or self.usual_output.path
         output = scalar_at(self.calculation.response, path, "outputs.0", "unknown_output")
         if output.kind not in NUMBERS:
@@ -208,7 +207,7 @@ class StudyPage(ABC):
         return output
 
     def menu(self, name: str, label: str, empty: str, choices: list[Choice]) -> Menu:
-        """Return a menu of these choices. If the choice in the query is not among the choices, add this choice."""
+        """Return a menu of the given choices. If the query names another choice, the menu also has this choice."""
         chosen = self.views.get(name, "")
         return menu(name, label, empty, choices, chosen, dict(self.faults).get(name))
 
@@ -233,7 +232,10 @@ class StudyPage(ABC):
         return self.field(control.name, control.label, control.default, control.unit, control.options)
 
     def control_at(self, path: str) -> str:
-        """Return the name of the control at a path in the body. For a field of the case, return the field's path."""
+        """Return the name of the control that sets the part of the body at `path`.
+
+        If this part is a field of the case, return the path of the field within the case.
+        """
         head, *rest = path.split(".")
         if head == "request":
             return ".".join(rest)
@@ -289,7 +291,7 @@ class StudyPage(ABC):
 
 
 class Opened(NamedTuple):
-    """A study page, cut into `head` and `tail`. If the study runs, its result is sent between these two parts."""
+    """A study page that is cut into `head` and `tail`. The result of a running study is sent between both parts."""
 
     page: StudyPage
     status: int
@@ -336,7 +338,7 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
 def checked(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) -> StudyPage:
     """Return the page with the study that the query asks for.
 
-    If the query is rejected, raise one of the errors in REFUSED. The paths in such an error are paths in the request
+    Raise one of the errors in REFUSED if the query is rejected. The error states where the fault lies in the request
     body.
     """
     page = kind(asked)
@@ -345,7 +347,7 @@ def checked(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) -
 
 
 def output_choices(calculation: Calculation) -> list[Choice]:
-    """Return the choices for the output that a study shows: scalar numbers of the answer, headline numbers first."""
+    """Return the outputs that a study can show. The headline numbers come first."""
     response = calculation.response
     first = headlines(response)
     titles = {branch.path: branch.title for branch in tree(response).branches}

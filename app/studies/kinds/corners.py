@@ -63,14 +63,14 @@ class CornersRequest(DriveTrainStudy):
 
 
 class Corners(Sweep):
-    """The results of a gear unit at every corner, for at most 256 corners.
+    """Study of a gear unit at every corner, for at most 256 corners.
 
-    A corner is a combination of the values of the uncertain inputs. There is a line for each corner. The lines
-    `extremes` give the least and the largest value of each output.
+    A corner is a combination of the values of the uncertain inputs. The answer has one line of text per corner, and one
+    line of the type `extremes` per output with the least and the largest value of this output.
 
-    If no output needs the thermal film, the film is not calculated. The study is then twenty times as fast as with
-    the film, and has fewer warnings. If some corners have no solution, the last line has the warning
-    `no_convergence_of_corner`. The lines of these corners state why there is no solution.
+    The thermal film is calculated only if an output needs this film. Without the film, the study is twenty times as
+    fast and has fewer warnings. If a corner has no solution, its line states the reason, and the last line of the
+    answer has the warning `no_convergence_of_corner`.
     """
 
     path = "/v1/drive-train/corners"
@@ -92,7 +92,7 @@ class Corners(Sweep):
         return grid(ranges, base, min(most, MOST_CORNERS), "ranges")
 
     def _closing(self, summary: Summary, end: Line) -> list[Line]:
-        """Return one line `extremes` per output, followed by the line `end`.
+        """Return the last lines of the answer: one line `extremes` per output, and the line `end`.
 
         The line `end` has a warning if some corners have no solution.
         """
@@ -112,10 +112,10 @@ def control_of(quantity: str) -> str:
 
 
 class UnitPage(StudyPage):
-    """Base class of the pages that show a study over the corners of a gear unit.
+    """Base class of the pages of studies that vary the uncertain inputs of a gear unit.
 
-    `corners` is the name of the field of the body that contains the ranges of the uncertain inputs. `left_alone` lists
-    uncertain inputs that are not varied, unless the user types values for these inputs.
+    `corners` is the field of the request that contains the values of the uncertain inputs. `left_alone` lists inputs
+    that are varied only if the user types values for them.
     """
 
     names = frozenset(map(control_of, UNCERTAIN))
@@ -125,9 +125,9 @@ class UnitPage(StudyPage):
 
     @cached_property
     def uncertain(self) -> dict[str, Axis]:
-        """The axes of the uncertain inputs with their usual values. The keys are the names of the quantities.
+        """Axes of the uncertain inputs with their usual values, by the name of the input.
 
-        The dictionary is empty if the service rejects the case.
+        The dictionary is empty if the request is invalid.
         """
         try:
             return usual_corners(BaseRequest(self.calculation, self.asked.body).checked({}))
@@ -135,10 +135,10 @@ class UnitPage(StudyPage):
             return {}
 
     def declared(self) -> tuple[Control, ...]:
-        """Return one control per uncertain input. In the control, the user types the values of this input.
+        """Return one form control per uncertain input, in which the user types the values of this input.
 
-        By default, a control contains the usual values of its input. A control of an input in `left_alone` is empty.
-        Errors that concern all uncertain inputs together are shown at the first control.
+        By default, a control contains the usual values of its input. The controls of the inputs in `left_alone` are
+        empty by default. Errors that concern all uncertain inputs together are shown at the first control.
         """
         controls: list[Control] = []
         for quantity, axis in self.uncertain.items():
@@ -163,7 +163,10 @@ class UnitPage(StudyPage):
         return (Controls("Uncertain inputs", fields=tuple(fields), about=about),)
 
     def corner_table(self, title: str, case: Case, corner: Overrides) -> Table:
-        """Return a table of the inputs that a corner changes, with their values in the case and at the corner."""
+        """Return a table of the inputs that a corner changes.
+
+        The table contains the values as described by the user and the values at the corner.
+        """
         rows = []
         for path, value in corner.items():
             leaf = self.input(path)
@@ -173,20 +176,20 @@ class UnitPage(StudyPage):
 
 
 def _typed(axis: Axis, text: str) -> dict[str, Any]:
-    """Return the axis with the values that the user typed.
+    """Return the path of an uncertain input, and the values that the user typed for this input.
 
-    Semicolons separate the values of the axis. If the axis changes several fields together, blanks separate the values
-    of these fields.
+    Semicolons separate the values. If several fields change together, blanks separate the values of these fields.
     """
     rows = [[number_of(part) for part in row.split()] for row in text.split(";")]
     return {"path": axis.path, "values": [row[0] if len(row) == 1 else row for row in rows]}
 
 
 def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[str, Figure]:
-    """Return the figure of the load along the face: solid lines for `case`, dashed lines for `reference`.
+    """Return the figure that compares the load along the face in two cases.
 
-    `name` is the name of `case` in the legend. The finding of the figure begins with the text `finding`.
-    The result is empty if `case` or `reference` has no data for this figure.
+    The lines of `case` are solid, and the lines of `reference` are dashed. `name` is the name of `case` in the legend.
+    The caption of the figure begins with the text `finding`. The result is empty if the load of one of the two cases
+    cannot be drawn.
     """
     try:
         own, given = (LOAD_ALONE.figure(drawn_case.request, drawn_case.response) for drawn_case in (case, reference))
@@ -217,11 +220,11 @@ class CornersPage(UnitPage):
     study: Corners
 
     def body(self) -> dict[str, Any]:
-        """Return the body with the values of the uncertain inputs.
+        """Return the body of the request for the study.
 
-        If the user typed no values for an input, the usual values of this input are used. The body requests the output
-        that the page shows. The body also requests all headline numbers that need neither the thermal film nor the
-        cold state.
+        The body contains the values that the user typed for the uncertain inputs, or the usual values if the user typed
+        none. The requested outputs are the output that the page shows, and all headline numbers that need neither the
+        thermal film nor the cold state.
         """
         output, paths = self.output.path, [leaf.path for leaf in headlines(self.calculation.response)]
         deciding = [path for path in paths if not (needs_film(DRIVE_TRAIN, path) or path.startswith(COLD))]
@@ -259,10 +262,10 @@ class CornersPage(UnitPage):
         return Result(progress, {"corners": figure, **load}, tables, tuple(remarks), leads)
 
     def _rows(self, lines: list[Line], worst: Overrides) -> list[Row]:
-        """Return one row per uncertain input. The row has one dot per value of the input.
+        """Return one row of a dot plot per uncertain input, with one dot per value of the input.
 
-        A dot stands for one value of the input. The position of the dot shows an output: the worst output among all
-        corners at which the input has this value. If none of these corners has a solution, the value has no dot.
+        The position of a dot is the worst output among all corners at which the input has this value. If none of these
+        corners has a solution, the dot is left out.
         """
         points = [line for line in lines if line["type"] == "point" and line["out"][0] is not None]
         pick = min if self.output.view.greatest_is_best else max
@@ -285,7 +288,7 @@ class CornersPage(UnitPage):
     def _extremes(self, extremes: dict[str, Line], case: Case) -> Table:
         """Return a table of the least and the largest value of each output.
 
-        Each value is a link to the case at the corner where the value occurs.
+        Each least or largest value is a link to the corner at which the value occurs.
         """
         rows = []
         for leaf in self.study.outputs:

@@ -96,13 +96,12 @@ class DesignRequest(DriveTrainStudy):
 class Design(Study):
     """A search for the best correction of a gear unit. The search starts from the correction in the request.
 
-    The method of the search is COBYQA. The objective of a correction is the value of the chosen output at the worst
-    combination of operating point and corner. The output `safety.minimum` needs the thermal film, which takes one
-    second per corner. If the output is `safety.blok_flank`, or if `model.lubrication` is `closed_form`, the search is
-    twenty times as fast.
+    The objective of a correction is the value of the chosen output at the worst combination of operating point and
+    corner. The output `safety.minimum` needs the thermal film, which takes one second per corner. If the output is
+    `safety.blok_flank`, or if `model.lubrication` is `closed_form`, the search is twenty times as fast.
 
-    If a variable has a `step`, the last line has the member `rounded`. This member holds the best correction, rounded
-    to whole steps, and the objective of the rounded correction.
+    If a variable has a `step`, the last line of the answer has the member `rounded`. This member holds the best
+    correction, rounded to whole steps, and the objective of the rounded correction.
     """
 
     path = "/v1/drive-train/design"
@@ -192,13 +191,14 @@ class Design(Study):
         ]
 
     async def _trial(self, pool: Pool, clock: Clock, values: list[float]) -> tuple[Line, list[float] | None]:
-        """Try a correction. Return the content of the line about this trial, and a list of the objectives of all cases.
+        """Evaluate a correction in all cases. Return a summary of the trial and the objectives of all cases.
 
-        The line has the values of the variables, the objective in the worst case, and the worst case itself. If the
-        objective is to be maximised, the signs in the list are reversed, so that a smaller number is always better.
+        The summary states the values of the variables, the objective in the worst case, and the worst case itself. If
+        the objective is to be maximised, the signs of the returned objectives are reversed, so that a smaller number
+        is always better.
 
-        If a case has no solution, the trial ends at this case. The objective in the line is then None, the worst case
-        in the line is this case, and None is returned instead of the list.
+        If a case has no solution, the remaining cases are not evaluated. The summary then states this case as the
+        worst case, with None as its objective. None is also returned instead of the objectives.
         """
         pairs = zip(self.body.variables, values, strict=True)
         at: Overrides = {path: value for variable, value in pairs for path in variable.paths}
@@ -246,9 +246,9 @@ def _unit(variable: Variable, base: BaseRequest, place: str) -> str | None:
 
 
 def _cases(request: DesignRequest, base: BaseRequest) -> list[Overrides]:
-    """Return one item per case: the values that the case changes in the request.
+    """Return the cases, which are all combinations of an operating point and a corner.
 
-    The cases are all combinations of an operating point and a corner.
+    A case holds the values that replace values of the request.
     """
     corners: list[Overrides] = [{}]
     if request.corners is not None:
@@ -265,9 +265,9 @@ def _cases(request: DesignRequest, base: BaseRequest) -> list[Overrides]:
 
 
 def _share(variable: Variable, case: dict[str, Any]) -> float:
-    """Return the position of the case's value in the range of a variable. 0 is the lower end, and 1 is the upper end.
+    """Return where the value of an input lies in the range of a variable, from 0 (lower end) to 1 (upper end).
 
-    The position is 0 if the case has no value.
+    `case` holds the values of the inputs. If the input has no value, return 0.
     """
     own = value_at(case, variable.paths[0])
     return 0.0 if own is None else min(max((own - variable.min) / (variable.max - variable.min), 0.0), 1.0)
@@ -293,15 +293,13 @@ def next_place(start: Sequence[float], told: Sequence[list[float] | None], most:
     """Return the point of the unit cube that the search evaluates next, or None if the search has ended.
 
     The search minimises the largest of the objectives, with at most `most` evaluations. `told` holds the objectives at
-    all points evaluated so far, in the order of evaluation; an item is None if the point has no solution. This function
-    runs in a worker. Each call repeats the search from the beginning, with the objectives in `told`, and stops at the
-    first point that has not been evaluated. The repetition takes some milliseconds per point. In return, no thread has
-    to wait while the objectives of a point are computed.
+    all points evaluated so far, in the order of evaluation. An item of `told` is None if the point has no solution.
+    Each call repeats the search from the beginning with the objectives in `told`, and stops at the first new point.
+    The repetition takes some milliseconds per point. In return, no thread has to wait while objectives are computed.
 
-    The method is COBYQA, which needs no derivatives. COBYQA minimises an additional variable, the level, under the
-    constraint that no objective exceeds the level. In this form, COBYQA has one smooth model per objective, even along
-    a ridge on which two objectives are equally large. The method is restarted at the best point as long as a restart
-    improves the result. Raises NoSolution with the code `design` if the starting point has no solution.
+    The method is COBYQA. It minimises an additional variable, the level, under the constraint that no objective
+    exceeds the level. The method is restarted at the best point as long as a restart improves the result. Raises
+    NoSolution with the code `design` if the starting point has no solution.
     """
     if len(told) == most:
         return None
@@ -313,7 +311,7 @@ def next_place(start: Sequence[float], told: Sequence[list[float] | None], most:
     def scaled(place: FloatArray) -> FloatArray:
         """Return the scaled objectives at a point.
 
-        `place` holds the coordinates of the point and, as the last item, the level. The level has no effect here.
+        `place` holds the coordinates of the point. The last item of `place` is the level and is ignored.
         """
         name = _name(place[:-1])
         if name not in evaluated:
@@ -396,9 +394,8 @@ class DesignPage(UnitPage):
     def body(self) -> dict[str, Any]:
         """Return the body of the study's request.
 
-        The body contains the ranges of the corrections and the values of the uncertain inputs. If the user types no
-        range or no values, the defaults are used. But an input in `left_alone` is varied only if the user types values
-        for this input.
+        The body contains the ranges of the corrections and the values of the uncertain inputs. The user can type these
+        ranges and values; otherwise the defaults are used. The inputs in `left_alone` have no defaults.
         """
         output, given = self.output, self.given()
         for (_, paths, *_), variable in zip(GROUND, given["variables"], strict=True):
@@ -413,8 +410,8 @@ class DesignPage(UnitPage):
     def declared(self) -> tuple[Control, ...]:
         """Return the controls for the number of trials, the ranges of the corrections and the uncertain inputs.
 
-        Further controls only show errors. Errors of a correction are shown at the control for the lower end of the
-        correction's range. Errors of the objective are shown at the menu of outputs.
+        Further items state where errors are shown. Errors of a correction are shown at the lower end of its range, and
+        errors of the objective are shown at the menu of outputs.
         """
         whole = (Control(f"low.{place}", f"variables.{place}", sets=False) for place in range(len(GROUND)))
         objective = Control(OUTPUT.name, "objective", sets=False)
@@ -514,11 +511,11 @@ class DesignPage(UnitPage):
         return Table("What to grind", ("gear", "correction", "where", *numbered, "unit"), rows, note)
 
     def _before_and_after(self, end: Line, wanted: Line, case: Case, ground: Case) -> Table:
-        """Return a table of the output with the correction as entered and with the best correction.
+        """Return a table that compares the output before and after the correction.
 
-        The table has one column per correction, and two rows. In the first row, the uncertain inputs have their values
-        at the worst corner of the correction. In the second row, the uncertain inputs have the values as entered. If
-        the best correction worsens the output in the second row, the table has a note.
+        One column is for the correction as entered, and one column is for the best correction. The first row states
+        the output with the worst values of the uncertain inputs, and the second row with the values as entered. If the
+        best correction worsens the output in the second row, the table has a note.
         """
         output = self.output
         before, after = (value_at(unit_case.response, output.path) for unit_case in (case, ground))
@@ -535,9 +532,9 @@ class DesignPage(UnitPage):
         return Table("What it brings", (output.title, Number("as described"), Number("ground so"), "unit"), rows, note)
 
     def _lead_chart(self, case: Case, at: Overrides) -> Figure:
-        """Return the figure of the lead that results from helix slope and crowning, with its tolerance band.
+        """Return the figure of the lead, which is the sum of helix slope and crowning.
 
-        The solid line is the lead to grind, and the dashed line is the lead of the case as entered.
+        The solid line is the lead to grind, with its tolerance band. The dashed line is the lead as entered.
         """
         curves, inputs = case.response.misalignment.curves, case.response.inputs
         position = values(curves.position_mm)
@@ -558,10 +555,9 @@ def _ends(case: Case) -> tuple[str, str]:
 
 
 def _numbers(case: Case, end: Line, at: Overrides) -> Table:
-    """Return a table of the different values of helix slope and crowning that the pages of this unit show.
+    """Return a table that explains why the pages of a gear unit show different values of helix slope and crowning.
 
-    Each page answers a different question, so each page shows a different helix slope and crowning. Every row of the
-    table names the source of the values in this row.
+    Each row states one helix slope, one crowning, and the source of both values.
     """
     misalignment, inputs = case.response.misalignment, case.response.inputs
     estimate = "first estimate: inputs as described, load spread evenly over the face"
@@ -580,10 +576,10 @@ def _numbers(case: Case, end: Line, at: Overrides) -> Table:
 
 
 def _gap(ground: Case, case: Case) -> dict[str, Figure]:
-    """Return the figure of the gap over the face: solid lines after grinding, dashed lines for the case as entered.
+    """Return the figure of the gap between the flanks over the face.
 
-    Both gaps are calculated with the uncertain inputs as entered, not at the worst corner. The result is empty if one
-    of the two cases has no data for the figure.
+    Solid lines show the gap with the correction to grind, and dashed lines the gap with the correction as entered. In
+    both calculations, the uncertain inputs have the values as entered. The result is empty if a gap is not available.
     """
     try:
         own, given = (GAP.figure(unit_case.request, unit_case.response) for unit_case in (ground, case))

@@ -58,8 +58,8 @@ class SensitivityRequest(StudyRequest):
 class Perturbation:
     """An input, its value, and the step by which the value is moved.
 
-    If the step is the tolerance of the input, the step may be large. The slope over the step is then compared with the
-    slope over half the step. `half` is half the step if the step is a tolerance, and None otherwise.
+    A step that is the tolerance of the input may be so large that the output does not change linearly over the step.
+    `half` is then half the step, and shows by comparison whether the slope changes. For other steps, `half` is None.
     """
 
     leaf: Leaf
@@ -69,9 +69,10 @@ class Perturbation:
 
     @property
     def places(self) -> list[float]:
-        """The values to which the input is moved. Values outside the permissible range of the input are left out.
+        """The values to which the input is moved.
 
-        The order is: a step down, a step up, half a step down, half a step up.
+        They lie one step below and one step above the value of the input. If `half` is set, the values half a step
+        below and half a step above follow. Values outside the permissible range of the input are left out.
         """
         steps = [self.step] if self.half is None else [self.step, self.half]
         number = int if self.leaf.kind == "integer" else float
@@ -100,12 +101,13 @@ def perturbation(leaf: Leaf, value: float) -> Perturbation:
 def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line:
     """Compute the derivative of an output with respect to an input, and the change of the output by one step.
 
-    `outputs` maps each value of the input to the output; an output is None if the point has no answer. The items of the
-    result are:
+    `outputs` maps each value of the input to the value of the output, or to None if there is no answer. The items of
+    the result are:
 
-    `derivative`: the central difference quotient [output per input], or a one-sided quotient if one side has no answer.
+    `derivative`: the central difference quotient [output per input], or a one-sided quotient if there is no answer
+    below or above the value of the input.
     `elasticity`: the change of the output in per cent if the input changes by 1 %. It is None if the input or the
-    output is zero, or if the unit of the input is degrees Celsius.
+    output is zero, if the unit of the input is degrees Celsius, or if there is no derivative.
     `step`: the step of the input.
     `change`: the change of the output by one step upwards, computed with the steeper of the two one-sided slopes.
     `kink`: True if the two one-sided slopes differ by more than a tenth; None if one of these slopes is missing.
@@ -115,10 +117,10 @@ def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line
     base, step, half = outputs[moved.value], moved.step, moved.half
 
     def slope(below: float, above: float) -> float | None:
-        """Return the difference quotient of the output between two points.
+        """Return the slope of the output between two values of the input.
 
-        `below` and `above` are the offsets of the points from the value of the input. If one of the points has no
-        answer, the point with the offset 0 is used instead.
+        `below` and `above` are the differences of these values from the value in the case. If there is no answer at one
+        of these values, the value in the case is used instead.
         """
         places = [moved.value + offset for offset in (below, 0, above)]
         pairs = [(place, value) for place in places if (value := outputs.get(place)) is not None]
@@ -177,9 +179,9 @@ class Sensitivity(Study):
         return total
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """Yield a line for each pair of an output and an input, and then the line `end`.
+        """Yield one result for each pair of an output and an input, and then the line `end`.
 
-        Among the lines of an output, the line of the most influential input comes first.
+        The results for the first output come first. For each output, the input with the greatest influence comes first.
         """
         overrides: list[Overrides] = [{}]  # the first point is the case itself
         overrides += [{moved.leaf.path: place} for moved in self.perturbations for place in moved.places]

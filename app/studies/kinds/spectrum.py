@@ -269,7 +269,7 @@ class Spectrum(Study):
         return machine | self.cases[case].set
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """Yield the header, then the lines of progress, and at last the line `end`.
+        """Yield the header, then the lines that state the progress, and at last the line `end`.
 
         If the request asks for points, also yield a line for each point.
         """
@@ -497,11 +497,10 @@ def _too_many(question: Question, overrides: Overrides, total: int, most: int) -
 
 
 class Column(NamedTuple):
-    """A column of the table of cases.
+    """A column of the table of load cases.
 
-    If the column contains the values of a field, `path` is the path of this field. If the column contains the names of
-    the cases, `path` is "name". If the column contains the shares of the cases, `path` is "share". The numbers in the
-    column are multiplied by ten to the `power`.
+    `path` is the path of the field whose values the column contains. It is "name" for the names of the load cases, and
+    "share" for their shares of the operating time. The numbers in the column are multiplied by 10**`power`.
     """
 
     path: str
@@ -798,11 +797,11 @@ class SpectrumPage(StudyPage):
         return scuffing is not None and (self.views.get("show") or self.usual_output.path) == scuffing.contact
 
     def _limits(self, given: dict[str, Any]) -> list[dict[str, Any]] | None:
-        """Return a list with the limit of the output.
+        """Return a list with the limit of the output, or an empty list if the output has no limit.
 
-        If the user typed a limit, the list has this limit. If the user typed no limit, the list has the usual limit of
-        the output, or is empty if there is no usual limit. There is one exception: if the user typed no limit and the
-        scuffing temperature is the default limit, the result is None, because the study adds this limit itself.
+        The limit is the limit that the user typed, otherwise the usual limit of the output. If the user typed no limit
+        and the scuffing temperature is the default limit, return None, because the study adds this limit itself. Raises
+        Unprocessable if the user typed a deviation but no value.
         """
         view, scatter, value = self.output.view, given.get("deviation"), given.get("value")
         if value is None and view.bound and isinstance(view.limit, int | float) and not self._assumes_limit:
@@ -959,10 +958,11 @@ class SpectrumPage(StudyPage):
         return Table("Limit", ("output", "side", Number("limit"), Number("deviation"), "unit", "source"), (row,))
 
     def _cases_table(self, end: Line, limit: Line | None) -> Table:
-        """Return a table with one row per case.
+        """Return a table with one row per load case.
 
-        A row has the share of the operating time, the probability of exceeding the limit, the share of machines for
-        which the case is the worst case, and the quantiles of the output.
+        A row has the case's share of the operating time, the probability of exceeding the limit, the fraction of
+        machines for which the case is the worst case, the quantiles of the output, and the fraction of machines without
+        a solution.
         """
         output, rows = self.output, list[tuple[str | Link, ...]]()
         for index, (case, content) in enumerate(zip(self.study.cases, end["cases"], strict=True)):

@@ -1,7 +1,8 @@
 """Sweeps: one request is solved at many points. The results at a point are the endpoint's results for this point.
 
-The study returns one line per point. The last line has the extremes and the statistics. On the page of the study, one
-or two fields of a case are varied. The page draws a curve, several curves or a map while the points arrive.
+The study sends one line per point. In JSON, the last line has the extremes and the statistics. On the page of the
+study, the user varies one or two fields of a case. The page draws a curve, several curves or a map while the points
+arrive.
 """
 
 import json
@@ -146,10 +147,7 @@ class Summary(runner.Tally):
             self._compare(self._best, index, point.out)
 
     def _compare(self, best: Best, index: int, out: list[Any]) -> None:
-        """Store the point as the best point if it keeps all limits and is better than the best point so far.
-
-        An earlier point that does not keep all limits is never the best point so far.
-        """
+        """Store the point as the best point if it keeps all limits and is better than the best point so far."""
         values = dict(zip(self.outputs, out, strict=True))
         is_inside = all(
             is_number(values[bound.output])
@@ -293,7 +291,7 @@ def _sampled(sample: Sample, base: BaseRequest, most: int) -> PointSet:
 
 
 def _check_best(best: Best, outputs: tuple[Leaf, ...]) -> None:
-    """Raise Unprocessable if the criterion for the best point, or one of its limits, names no numeric output."""
+    """Raise Unprocessable if a path in the criterion for the best point is not the path of a numeric output."""
     leaf_by_path = {leaf.path: leaf for leaf in outputs}
     judged = {"best.minimise" if best.minimise else "best.maximise": best.output}
     judged |= {f"best.where.{place}.output": bound.output for place, bound in enumerate(best.where)}
@@ -313,10 +311,7 @@ AXIS = (
     Control(".count", "count", label="points"),
     Control(".scale", "scale", "linear", str, label="steps", options=(("", "even steps"), ("log", "even ratios"))),
 )
-"""The controls of an axis, with incomplete names and paths.
-
-The name of the axis is put before the name of a control, and the path of the axis before the path of a control.
-"""
+"""The controls of an axis. The name and the path of the axis are put before the name and the path of a control."""
 
 
 class SweepPage(StudyPage):
@@ -345,11 +340,12 @@ class SweepPage(StudyPage):
     def _usual_ends(self, leaf: Leaf) -> tuple[float, float] | tuple[None, None]:
         """Return the ends between which a field is varied if the user types no ends.
 
-        The ends lie on both sides of the value in the case, inside the permissible range of the field. If the case has
-        no value, the ends are the ends of the permissible range. The same holds if the value is 0 and the field has no
-        tolerance. If the range is infinite in one of these two situations, the result is (None, None).
+        If the field accepts only certain numbers, the ends are the least and the largest of these numbers. Otherwise
+        the ends lie on both sides of the value in the case, inside the permissible range of the field. If the case has
+        no value, or if the value is 0 and the field has no tolerance, the ends are the ends of the permissible range.
+        If this range is infinite, the result is (None, None).
 
-        The ends of an integer field are integers; all other ends are rounded to four significant digits.
+        The ends of an integer field are integers; other computed ends are rounded to four significant digits.
         """
         if numbers := [option for option in leaf.options if is_plain_number(option)]:
             return min(numbers), max(numbers)
@@ -371,8 +367,8 @@ class SweepPage(StudyPage):
     def declared(self) -> tuple[Control, ...]:
         """Return the controls of the axes.
 
-        Errors that concern a whole axis are shown at the control for the start of this axis. Errors that concern all
-        axes together are shown at the control `x.count`.
+        An error of a whole axis is shown at the control for the start of this axis. An error of the list of axes is
+        shown at the control `x.count`.
         """
         controls = [Control("x.count", "vary", sets=False)]
         for place, name in enumerate(AXES):
@@ -390,11 +386,11 @@ class SweepPage(StudyPage):
         """Return the axis of a field from its ends, its number of points and its scale.
 
         `given` holds what the user typed for the axis. If the field accepts only a fixed set of values, the axis has
-        these values. If these values are numbers, values that are not between the ends are left out. If the field
-        accepts any integer in a range, the integers are spread as evenly as possible, and no integer occurs twice.
+        these values; numbers outside the ends are left out. If the field accepts any integer in a range, the integers
+        are spread as evenly as possible, and no integer occurs twice.
 
-        Raises Unprocessable at `where` if an end is missing, if both ends are equal, or if a field without numbers is
-        on the first axis. The later validation of the body reports all other errors.
+        Raises Unprocessable if the field cannot be varied on this axis, if an end is missing, or if both ends are
+        equal.
         """
         leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
         axis, choices = {"path": leaf.path}, choices_of(leaf)
@@ -424,7 +420,8 @@ class SweepPage(StudyPage):
     def is_greatest_best(self) -> bool:
         """True if the greatest value of the output is the best value.
 
-        Raises Unprocessable if the query states neither the least nor the greatest value as the best.
+        If the query does not say which value is best, the output decides. Raises Unprocessable if the query has a word
+        other than "least" and "greatest".
         """
         best = self.views.get("best", "greatest" if self.output.view.greatest_is_best else "least")
         if best not in {"least", "greatest"}:
@@ -535,10 +532,10 @@ class SweepPage(StudyPage):
         )
 
     def _coordinate(self, name: str, leaf: Leaf, axis_in_sweep: CheckedAxis) -> tuple[Coordinate, list[int]]:
-        """Return the coordinate of a figure for one axis of the sweep, and the order of the values on this coordinate.
+        """Return the values of an axis of the sweep as a coordinate of the figure, and the order of these values.
 
-        Numbers are sorted in ascending order; other values keep their order. The order is a list of indices into
-        `axis_in_sweep.values`.
+        Numbers are sorted in ascending order; other values keep their order. The order is a list of indices into the
+        values of the axis.
         """
         in_sweep = axis_in_sweep.values or []
         if not all(map(is_plain_number, in_sweep)):
@@ -572,10 +569,9 @@ class SweepPage(StudyPage):
         return self.address(self.study.points.overrides(index))
 
     def _script(self, received: list[Line], figure: Figure) -> str:
-        """Return data for the script of the page, as JSON.
+        """Return the data with which the script of the page opens the case at the mouse pointer, as JSON.
 
-        With these data, the script finds the point of the figure under the mouse pointer, and opens the case at this
-        point. The result is empty if the form has no field for one of the axes.
+        The result is empty if the form has no field for one of the axes.
         """
         points = self.study.points
         if None in [leaf_at(self.calculation.request, leaf.path) for leaf in points.varied]:

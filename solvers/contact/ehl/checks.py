@@ -42,7 +42,7 @@ def check(inputs: LineContactInputs) -> None:
 
 
 def lightest(inputs: LineContactInputs) -> LineContactInputs:
-    """Increase the line load of a contact if `check` would refuse the load as too small.
+    """Increase the line load of a contact if `check` would refuse this load because it is too small.
 
     Parameters
     ----------
@@ -130,8 +130,8 @@ def _check_oil(inputs: LineContactInputs) -> None:
 def _check_load(inputs: LineContactInputs) -> None:
     """Check the pressure and the expected film.
 
-    If the film is much thicker than the deformation of the surfaces, the surfaces are practically rigid. Such a contact
-    is refused.
+    A contact is also refused if the film is much thicker than the deformation of the surfaces, because the surfaces are
+    then practically rigid.
     """
     scales = groups(inputs)
     if scales.maximum_pressure > HIGHEST_PRESSURE:

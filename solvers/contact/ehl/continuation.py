@@ -65,7 +65,7 @@ class Budget:
     of: "Budget | None" = None
 
     def part(self, most: float = inf) -> "Budget":
-        """Return a part of this budget. The part holds all that remains, but at most `most` units."""
+        """Return a budget of at most `most` units. Its costs are also deducted from this budget."""
         return Budget(min(most, self.remaining), of=self)
 
     def steps(self, resolution: Resolution, nodes: int) -> int:
@@ -108,9 +108,9 @@ class Attempt:
     """Result of one attempt to solve a contact.
 
     `state` is the last state, and `grid` is its mesh. `converged` tells whether the state has converged. `stage` is the
-    stage that the solution reached. An attempt may raise the Eyring stress in steps. If one of these steps failed,
-    `eyring_stress` [Pa] is the last stress at which the iteration converged, or 0 if there was no such stress. In all
-    other cases `eyring_stress` is None.
+    stage that the solution reached. `eyring_stress` has a value only if the attempt raised the Eyring stress in steps,
+    and one of the steps failed. The value is the stress of the last successful step [Pa], or 0 if the first step
+    failed.
     """
 
     grid: Grid

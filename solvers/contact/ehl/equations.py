@@ -63,11 +63,11 @@ class Carried(NamedTuple):
 
 
 class Residual(NamedTuple):
-    """Residuals of the balances of mass (n,), load and heat (n, k).
+    """Residuals of the equations for mass (n,), load and heat (n, k).
 
-    The residuals of mass are divided by the flux scale. If the pressure of a node is prescribed, the residual of mass
-    is P. The residuals of heat are in W/m^2. If the temperature of a node is prescribed, the residual of heat is the
-    temperature minus the prescribed temperature [K].
+    The residual of mass is divided by the flux scale. At nodes where the pressure is prescribed as zero, this residual
+    is P = p/p_H. The residual of heat is in W/m^2. At nodes where the temperature is prescribed, this residual is the
+    deviation from the prescribed temperature [K].
     """
 
     mass: Numbers
@@ -628,12 +628,12 @@ def _intervals(m: int) -> tuple[Numbers, float]:
 
 
 def _half_way(layers: Numbers) -> Numbers:
-    """Return, for every layer (n, m), the sum of all layers below it plus half of the layer itself."""
+    """Return, for every interval (n, m), the sum of the values of all intervals below plus half of its own value."""
     return np.asarray(np.cumsum(layers, axis=1) - 0.5 * layers)
 
 
 def _from_surface_1(layers: Numbers) -> Numbers:
-    """Return, for every node (n, m + 1), the sum of the layers (n, m) between surface 1 and the node."""
+    """Return, for every node (n, m + 1), the sum of the values of the intervals between surface 1 and the node."""
     return np.asarray(np.concatenate([np.zeros_like(layers[:, :1]), np.cumsum(layers, axis=1)], axis=1))
 
 
@@ -644,7 +644,7 @@ def _to_nodes(intervals: Numbers) -> Numbers:
 
 
 def _layers(psi: Numbers) -> Numbers:
-    """Return the stream function (n, k + 1) at the edges of the cells in every column.
+    """Return the stream function (n, k + 1) at the edges of the cells across the film.
 
     The inner edges lie half way between two nodes. The outer edges lie on the surfaces.
     """
@@ -652,10 +652,9 @@ def _layers(psi: Numbers) -> Numbers:
 
 
 def _edges(psi: Numbers) -> Numbers:
-    """Return, for the right face of every column, the stream function (n, k + 1) at the edges of the cells.
+    """Return the stream function (n, k + 1) half way between every column and the next, at the edges of the cells.
 
-    The right face of a column lies half way to the next column. The last column has no next column. For the last
-    column, the result is the stream function of this column itself.
+    The last column has no next column. Its row contains the stream function in the column itself.
     """
     layers = _layers(psi)
     return np.asarray(0.5 * (layers + np.concatenate([layers[1:], layers[-1:]])))

@@ -150,9 +150,8 @@ def linearise_columns(
 def flow_slopes(problem: Problem, i: int, p: float, film: Film, coefficients: FlowCoefficients) -> None:
     """Compute the derivatives of ln A and B of column i with respect to p, G, h and the nodal temperatures.
 
-    The derivatives with respect to p, G and h hold at fixed temperatures. An interval contributes through its density
-    and through the ratio phi of shear rate to stress. The ratio phi depends directly on p and on the temperature. The
-    ratio also depends on the stress, and therefore on every quantity that changes the mid-film stress tau_m.
+    The derivatives with respect to p, G and h hold at fixed temperatures. They include the change of the mid-film
+    stress tau_m.
     """
     shear, moments, flows, mid = film.shear, film.moments[i], film.flow, film.mid
     m, u1, du = shear.density.shape[1], problem.speed_1, problem.speed_2 - problem.speed_1

@@ -35,12 +35,11 @@ class ColumnSystem(NamedTuple):
     """Linear systems for the temperatures of all columns.
 
     The matrix of a column is the sum of a tridiagonal part and a rank-one part. `lower`, `pivot` and `upper` (n, k) are
-    the tridiagonal part. `factor_columns` replaces `lower` and `upper` by factors, and `pivot` by the inverse pivots.
-    The rank-one part arises because the temperatures change the mid-film stress, and this stress changes the generated
-    heat. `sherman` (n,) is the factor 1/(1 + v x) of the Sherman-Morrison formula. Here v holds the derivatives of the
-    mid-film stress with respect to the temperatures, and x is the solution of the tridiagonal system for the right-hand
-    side `heating`. `residual` (n, k) is the residual of the heat balance. `squeeze` (n, k) is the heat of compression
-    per kelvin of temperature and per pascal of h dp/dx [W/(m^2 K Pa)].
+    the tridiagonal part. `factor_columns` replaces these three arrays by the factors of the tridiagonal part. The
+    rank-one part arises because the temperatures change the mid-film stress, and this stress changes the generated
+    heat. `sherman` (n,) is the factor of the Sherman-Morrison formula, which takes the rank-one part into account.
+    `residual` (n, k) is the residual of the heat balance. `squeeze` (n, k) is the heat of compression per kelvin of
+    temperature and per pascal of h dp/dx [W/(m^2 K Pa)]. Here h is the film thickness.
     """
 
     lower: FloatArray
@@ -57,8 +56,8 @@ class Convection(NamedTuple):
 
     The right face of a column lies half way to the next column. `edges` holds the stream function on the right face of
     every column, at the edges between the cells and at both surfaces. The inflow is a heat capacity flux per area
-    [W/(m^2 K)]. For the half cells at the walls, `linearise_balances` turns the heat balances into equations for the
-    surface temperatures. The inflow into these half cells is then a number without unit.
+    [W/(m^2 K)]. For the half cells at the walls, `linearise_balances` multiplies the inflow by a temperature rise per
+    heat flux. The inflow into these half cells is then a number without unit.
     """
 
     from_left: FloatArray
@@ -88,7 +87,7 @@ class Surfaces(NamedTuple):
 
 
 class Heat(NamedTuple):
-    """The linearised heat balance of n columns with k nodes across.
+    """The linearised heat balance of n columns with k nodes across the film.
 
     Three arrays (n,) have one value for each column: `fluid_fraction` [-], `generated` (heat of shear) [W/m^2] and
     `compression` (heat of compression) [W/m^2].
@@ -215,10 +214,10 @@ def balance_columns(
 
 @inlined_kernel
 def exchange(problem: Problem, i: int, width: float, h: float, film: Film, heat: Heat) -> None:
-    """Compute the heat that the cells of column i exchange per kelvin, by convection and conduction [W/(m^2 K)].
+    """Compute the heat that the cells of column i exchange with their neighbours, per kelvin [W/(m^2 K)].
 
-    Convection is upwind on all sides. `width` is the width of the column [m]. The function also computes the heat of
-    compression per kelvin and pascal, (0.00065 rho0/rho) u/h.
+    The exchange consists of convection, computed upwind, and of conduction. `width` is the width of the column [m]. The
+    function also computes the heat of compression per kelvin and pascal, (0.00065 rho0/rho) u/h.
     """
     convection, column, edges, psi, rho = (
         heat.convection,
@@ -265,7 +264,7 @@ def column_residual(i: int, temperature: FloatArray, g: float, h: float, film: F
 
     Notes
     -----
-    Eq. E15. Half of the heat that shear generates in an interval goes to each of the two nodes of the interval.
+    Eq. E15. Shear generates heat in the intervals between two nodes. Each of the two nodes gets half of this heat.
     """
     n, last = temperature.shape[0], temperature.shape[1] - 1
     column, convection, tau, rate, t = heat.column, heat.convection, film.shear.stress, film.shear.rate, temperature
@@ -297,9 +296,10 @@ def linearise_balances(
 ) -> None:
     """Compute the derivatives of the heat balances of the columns `start` to `stop` - 1.
 
-    `balance_columns` must have computed these columns before. The results are the tridiagonal part of the systems, and
-    the right-hand sides for the mid-film stress, p, G and h. `damping` is an artificial heat capacity, divided by the
-    heat conduction across the film. The damping makes the temperature steps shorter.
+    `balance_columns` must have computed these columns before. The results are the tridiagonal part of the linear
+    systems and their right-hand sides. Each right-hand side belongs to a change of one quantity: of the mid-film
+    stress, of p, of G = h dp/dx, or of h. `damping` is an artificial heat capacity, divided by the heat conduction
+    across the film. The damping makes the temperature steps shorter.
     """
     m = temperature.shape[1] - 1
     for i in range(start, stop):
@@ -354,10 +354,9 @@ def column_slopes(
 
 @inlined_kernel
 def _scale_walls(i: int, inertia: float, heat: Heat) -> None:
-    """Turn the rows of both half cells into equations for the surface temperatures.
+    """Turn the heat balances of the half cells at both walls into equations for the surface temperatures.
 
-    The rows contain the inertia of a whole cell. Half of this inertia is subtracted, because a half cell has half the
-    inertia of a whole cell.
+    The balances contain the artificial inertia of a whole cell. Half of this inertia is subtracted.
     """
     column, convection, responses, walls = heat.column, heat.convection, heat.column.responses, heat.surfaces.walls[i]
     for side in range(2):
@@ -377,10 +376,10 @@ def _scale_walls(i: int, inertia: float, heat: Heat) -> None:
 def factor_columns(start: int, stop: int, film: Film, heat: Heat) -> None:
     """Factor the systems of the columns `start` to `stop` - 1, and solve every system for its four right-hand sides.
 
-    Thomas' algorithm factors the tridiagonal part, and the Sherman-Morrison formula adds the rank-one part. All arrays
-    are changed in place. `pivot` becomes the inverse pivots, `lower` becomes the factors of the forward substitution,
-    and `upper` becomes the factors of the backward substitution. Warmer oil shears at a lower stress. In a sliding film
-    this effect makes the system more stable. The rank-one part contains this effect.
+    Thomas' algorithm factors the tridiagonal part, and the Sherman-Morrison formula adds the rank-one part. The
+    rank-one part arises because warmer oil shears at a lower stress. In a sliding film this effect makes the system
+    more stable. All arrays are changed in place: `pivot` becomes the inverse pivots, `lower` becomes the factors of the
+    forward substitution, and `upper` becomes the factors of the backward substitution.
     """
     column, by_temperature = heat.column, film.mid.by_temperature
     lower, pivot, upper, responses = column.lower, column.pivot, column.upper, column.responses

@@ -1,7 +1,7 @@
 """Dense linear algebra for systems of about a hundred unknowns: LU decomposition, products, a few steps of GMRES.
 
-At this size a threaded BLAS can spend ten times as long on starting its threads as on the arithmetic. The functions
-take row indices instead of views of rows, because counting references to views would take as long as the arithmetic.
+For systems of this size, starting the threads of a BLAS takes up to ten times as long as the arithmetic. The functions
+take row indices, because creating views of rows would also take as long as the arithmetic.
 """
 
 import numpy as np
@@ -50,8 +50,7 @@ def row_product(matrix: FloatArray, i: int, start: int, stop: int, vector: Float
 def _factor_panel(matrix: FloatArray, pivots: IntArray, start: int, stop: int) -> None:
     """Eliminate the elements below the diagonal in columns start..stop.
 
-    Pivoting exchanges whole rows, including the columns from `stop` on. Apart from these exchanges, the columns from
-    `stop` on do not change.
+    The columns from `stop` on take part in the row exchanges of the pivoting, and are otherwise not changed.
     """
     n = pivots.size
     for k in range(start, stop):
@@ -73,7 +72,7 @@ def _factor_panel(matrix: FloatArray, pivots: IntArray, start: int, stop: int) -
 
 @inlined_kernel
 def _subtract_panel(matrix: FloatArray, i: int, start: int, stop: int) -> None:
-    """Subtract multiples of the eight rows of a panel from row i, in one pass over the columns from `stop` on."""
+    """Subtract multiples of the rows start..start + 7 from row i, in the columns from `stop` on."""
     k = start
     f0, f1, f2, f3 = matrix[i, k], matrix[i, k + 1], matrix[i, k + 2], matrix[i, k + 3]
     f4, f5, f6, f7 = matrix[i, k + 4], matrix[i, k + 5], matrix[i, k + 6], matrix[i, k + 7]
@@ -127,8 +126,7 @@ def multiply(matrix: FloatArray, vector: FloatArray, product: FloatArray) -> Non
 def solve_step(matrix: FloatArray, residual: FloatArray, step: FloatArray) -> bool:
     """Compute Newton's step (n,) for a residual (n,); return False if the system has no finite solution.
 
-    LAPACK solves the system, because LAPACK is fastest for a single right-hand side. The Python code that calls this
-    kernel limits LAPACK to one thread (`blas_threads`).
+    The Python code that calls this kernel limits LAPACK to one thread (`blas_threads`).
     """
     try:
         step[:] = np.linalg.solve(matrix, -residual)
@@ -141,9 +139,9 @@ def solve_step(matrix: FloatArray, residual: FloatArray, step: FloatArray) -> bo
 def extend_basis(basis: FloatArray, hessenberg: FloatArray, rotations: FloatArray, rhs: FloatArray, j: int) -> float:
     """Orthogonalise basis[j + 1] to all earlier basis vectors, and return the norm of the residual of GMRES.
 
-    Before the call, basis[j + 1] is the product of the operator and basis[j]. Modified Gram-Schmidt orthogonalises the
-    vector, and Givens rotations update the least-squares problem (Saad and Schultz, 1986). Shapes: basis (m + 1, n);
-    hessenberg (m, m), each row of which holds a column of the Hessenberg matrix; rotations (m, 2); rhs (m + 1,).
+    On entry, basis[j + 1] is the product of the operator and basis[j]. The method is modified Gram-Schmidt with Givens
+    rotations (Saad and Schultz, 1986). Shapes: basis (m + 1, n); hessenberg (m, m), whose rows hold the columns of the
+    Hessenberg matrix; rotations (m, 2); rhs (m + 1,).
     """
     vector = basis[j + 1]
     column = hessenberg[j]

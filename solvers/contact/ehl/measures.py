@@ -42,7 +42,7 @@ def at_place(attempt: Attempt, values: FloatArray, place: float = 0.0) -> float:
 
 
 def pressure(problem: Problem, attempt: Attempt) -> ContactPressure:
-    """Return the pressure in the centre, the largest pressure and the second maximum of the pressure."""
+    """Return the pressure in the centre, the largest pressure, and the second maximum, downstream of the centre."""
     x, p = attempt.grid.x, attempt.state.pressure
     peak = int(p.argmax())
     inner = np.flatnonzero((p[1:-1] > p[:-2]) & (p[1:-1] >= p[2:])) + 1
@@ -130,7 +130,10 @@ def friction_by_node(problem: Problem, attempt: Attempt, inputs: LineContactInpu
 
 
 def _share(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> FloatArray:
-    """Return the contribution of a unit stress at each node to the coefficient of friction (n,) [1/Pa]."""
+    """Return a factor [1/Pa] for each node (n,).
+
+    Stress times factor is the contribution of the node to the coefficient of friction.
+    """
     width = attempt.grid.weights * problem.half_width
     return width * attempt.work.heat.fluid_fraction / inputs.contact.line_load
 
@@ -183,7 +186,7 @@ def heat(problem: Problem, attempt: Attempt) -> ContactHeat:
 
 
 def _layer_edges(stream: FloatArray) -> FloatArray:
-    """Return the stream function (k + 1,) at the edges of the cells in one column.
+    """Return the stream function (k + 1,) at the edges of the k layers of the film.
 
     The inner edges lie half way between two nodes. The outer edges lie on the surfaces.
     """

@@ -150,13 +150,11 @@ def _read(
 
 
 def _failed_criterion(attempt: Attempt, result: LineContactResult) -> Stage | None:
-    """Check a converged state; return None if the state passes, or the stage to report if the state fails.
+    """Return None if a converged state passes all checks, otherwise the stage to report.
 
-    There are three checks:
-
-    - If the pressure does not carry the load, the function returns the stage at which the iteration ended.
-    - If the heat is not balanced, the function returns `heat_balance`.
-    - If the temperatures fail the check of `refinement.departure`, the function returns `verification`.
+    If the pressure does not carry the load, the stage is the stage at which the iteration ended. If the heat is not
+    balanced, the stage is `heat_balance`. If the temperatures fail the check of `refinement.departure`, the stage is
+    `verification`.
     """
     convergence, heat = result.convergence, result.heat
     if convergence.load_error >= WORST_LOAD:

@@ -86,7 +86,7 @@ def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coeffic
 def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) -> None:
     """Compute film thickness, stress and flow of all columns at the inlet temperature.
 
-    First, the function copies the mark `state.cavitated` of the last but one node to the last node.
+    The last node takes over the mark `state.cavitated` of the node before it.
     """
     state.cavitated[-1] = state.cavitated[-2]
     film_shape(grid, state.pressure, state.separation[0], work.height)
@@ -142,9 +142,9 @@ def solve_isothermal(
 
 @kernel
 def include_temperature(work: Work) -> None:
-    """Turn the derivatives of ln A and B at fixed temperatures into total derivatives.
+    """Add the effect of the temperatures to the derivatives of ln A and B by p, G and h.
 
-    The function adds the effect that p, G and h have through the responses of the temperatures.
+    Before the call, these derivatives hold at fixed temperatures.
     """
     log_a, b, responses = work.coefficients.log_a, work.coefficients.b, work.heat.column.responses
     a_slopes, b_slopes = work.film.flow.log_a_by_temperature, work.film.flow.b_by_temperature
@@ -174,9 +174,8 @@ def add_temperature_changes(
 ) -> None:
     """Add to `residual` the effect of a temperature step on the balance of mass.
 
-    `given` is the part of the temperature step that is a response to the pressure. The derivatives of the flow
-    coefficients ln A and B with respect to the pressure already contain this part. Therefore the function uses only the
-    difference between `step` and `given`.
+    Only the difference between `step` and `given` is added. `given` is the part of the temperature step that responds
+    to the pressure, and the derivatives of ln A and B by the pressure already contain its effect.
     """
     n, nodes = step.shape
     log_a, b = np.zeros(n), np.zeros(n)
@@ -224,11 +223,9 @@ def transport_response(
 ) -> None:
     """Compute how the heat transport between columns changes a step (n + 1,) in (P, H0).
 
-    The factored Jacobian contains the response of a column's temperatures to the pressure at this column. The Jacobian
-    does not contain the transport of heat from column to column by oil and surfaces. The function computes the
-    residuals that this transport adds if the step is taken. The function then solves the factored system for these
-    residuals, and writes the solution to `change` (n + 1,). `given` and `step_t` (n, k) are work arrays for
-    temperatures.
+    Oil and surfaces carry heat from column to column. The factored Jacobian neglects this transport. The function
+    computes the residuals that the transport causes if the step is taken, solves the factored system for these
+    residuals, and writes the solution to `change` (n + 1,). `given` and `step_t` (n, k) are work arrays.
     """
     pressure_responses(problem, grid, work, cavitated, step, given)
     temperature_step(problem, grid, work.film, work.heat, given, 0.0, step_t)
@@ -251,12 +248,9 @@ def newton_step(
 ) -> None:
     """Compute the Newton step from the linearised equations: `step` (n + 1,) in (P, H0), and `step_t` (n, k) in T.
 
-    The factored Jacobian leaves out the transport of heat between columns. Therefore GMRES corrects the step that this
-    Jacobian alone gives. The same Jacobian is the preconditioner of GMRES. The Jacobian contains the whole balance of
-    load. The step therefore satisfies this balance, no matter how many corrections GMRES makes.
-
-    If the first correction is small, the correction is applied without GMRES. The first correction is small if the
-    square of the ratio of this correction to the step is within the tolerance.
+    The factored Jacobian neglects the transport of heat between columns. GMRES corrects the step for this transport,
+    with the Jacobian as preconditioner. If a single correction is enough, GMRES is not started. The step satisfies the
+    balance of load after any number of corrections, because the Jacobian contains this balance without approximation.
     """
     n, nodes = step_t.shape
     given, change = np.zeros((n, nodes)), np.zeros(n + 1)
@@ -324,10 +318,9 @@ def solve_coupled(
 
     `work` receives all quantities of the solution. The iteration has converged if four conditions hold: the steps of
     pressure and temperature are within tolerance, the steps were not shortened, the broken film has not changed, and no
-    pressure gradient was limited. If a step is too long, the function does not take the step, but computes the step
-    again with damped temperatures (implicit pseudo-time). The damping decreases as the steps shrink. If the steps stop
-    shrinking, only a share of each step is taken. After a small full step the Jacobian is reused, as long as the steps
-    keep shrinking fast.
+    pressure gradient was limited. A step that is too long is computed again with damped temperatures (implicit
+    pseudo-time). The damping decreases as the steps shrink. If the steps stop shrinking, only a part of each step is
+    taken.
     """
     n, nodes = state.temperature.shape
     jacobian, residual = np.empty((n + 1, n + 1)), np.empty(n + 1)

@@ -39,7 +39,10 @@ SHARE_WITHOUT_HOPE = 0.1  # share of the usual number of steps that a contact ge
 
 @dataclass(slots=True)
 class _Walk:
-    """The latest solved states of the path, the mesh of these states, and the number of consecutive failures."""
+    """The states of the contacts solved last, the mesh of these states, and the number of consecutive failures.
+
+    After a failure there are no states.
+    """
 
     states: list[State] = field(default_factory=list)
     grid: Grid | None = None
@@ -77,10 +80,10 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
 
     Notes
     -----
-    Every contact except the first starts from pressures, temperatures and separation that are extrapolated from the
-    contacts before. If the contact does not converge from this start within a few steps, the contact is solved as if it
-    were alone. If this fails as well, the contact has no result, and the next contacts are still solved. After many
-    consecutive failures each contact is given fewer steps, until a contact converges again.
+    If the contact before was solved, a contact starts from extrapolated pressures, temperatures and separation. If this
+    contact does not converge from this start within a few steps, the contact is solved as if it were alone. If this
+    fails as well, the contact has no result, and the next contacts are still solved. After many consecutive failures
+    each contact is given fewer steps, until a contact converges again.
     """
     for inputs in contacts:
         check(inputs)
@@ -119,9 +122,9 @@ def _attempts(constants: Problem, resolution: Resolution, walk: _Walk, spent: Bu
 
 
 def _guess(states: Sequence[State]) -> State:
-    """Extrapolate the states to the next contact, and limit the result to physical values.
+    """Extrapolate the states of earlier contacts to the next contact, and limit the result to physical values.
 
-    Nodes at which the film is broken in the last state stay broken.
+    At nodes where the film of the last contact is broken, the film stays broken.
     """
     last = states[-1]
     film = _extrapolated(np.array([np.append(state.pressure, state.separation) for state in states]))
@@ -139,13 +142,9 @@ def _guess(states: Sequence[State]) -> State:
 def _extrapolated(rows: FloatArray) -> FloatArray:
     """Extrapolate `rows` (m, ...) to the next row by Newton's backward differences.
 
-    The result is the last row plus the differences of order 1, 2 and so on. The difference of order q is added only if
-    the difference of order q + 1 is smaller. If one difference is not added, the differences of higher order are not
-    added either. The difference of the highest order is added if all other differences are added.
-
-    These rules follow from a prediction of the last row from the earlier rows. If this prediction uses only the orders
-    below q, the error of the prediction is the difference of order q. If the prediction also uses order q, the error is
-    the difference of order q + 1.
+    The result is the last row plus the differences of order 1, 2 and so on. The sum ends before the first order whose
+    difference is not larger than the difference of the next order. This order would not have improved a prediction of
+    the last row from the earlier rows.
     """
     differences = [rows[-1]]
     while len(rows) > 1:

@@ -121,10 +121,11 @@ def strip_integral(x: FloatArray, flux: FloatArray) -> FloatArray:
 
 
 def inlet_departure(inputs: LineContactInputs, t: FloatArray) -> float:
-    """Return the largest error [K] of the temperatures in the first column of `t` (n, k).
+    """Return the largest error [K] of the temperatures across the film at the first node.
 
-    The walls must have their bulk temperatures. Oil that enters must have the inlet temperature, and oil that leaves
-    must have the temperature of the next column.
+    `t` (n, k) holds the temperatures of the film. At the first node, both surfaces must have their bulk temperatures.
+    Oil that flows in must have the inlet temperature. Oil that flows back out must have the temperature of the next
+    node.
     """
     bulk = inputs.temperatures
     walls = max(abs(t[0, 0] - bulk.surface_1), abs(t[0, -1] - bulk.surface_2))
@@ -134,14 +135,14 @@ def inlet_departure(inputs: LineContactInputs, t: FloatArray) -> float:
 
 
 def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray) -> float:
-    """Return the part of the film's cooling that decompression does not explain [K].
+    """Return the part of the film's cooling that decompression does not explain [K], at least 0.
 
     The cooling is the lowest bulk or inlet temperature minus the lowest temperature in `t` (n, k). Decompression takes
-    up the heat q = 0.00065 T u |dp/dx| h per area. Here T is the largest temperature of the film, u is the speed of the
-    faster surface, and h is the film thickness. The surfaces give off this heat and
-    become colder by the amount that `surface_heating` returns for the flux q. Between the surfaces, the film can be
-    colder by a further q h/(8 lambda), where lambda is the thermal conductivity of the oil. The result is the cooling
-    minus these two amounts, or 0 if this difference is negative.
+    up the heat q = beta T u |dp/dx| h per area. Here beta is the thermal expansion of the oil, T is the largest
+    temperature of the film, u is the speed of the faster surface, and h is the film thickness.
+
+    Decompression explains two parts of the cooling. The surfaces cool by `surface_heating` for the flux q. Between the
+    surfaces, the film cools by a further q h/(8 lambda), where lambda is the thermal conductivity of the oil.
     """
     bulk, contact, oil = inputs.temperatures, inputs.contact, inputs.lubricant
     missing = min(bulk.surface_1, bulk.surface_2, bulk.inlet) - float(t.min())
@@ -160,9 +161,9 @@ def undercooling(inputs: LineContactInputs, curves: ContactCurves, t: FloatArray
 class Comparison:
     """Results of a contact (`fine`), and of the same contact on half as many nodes (`coarse`).
 
-    `fine` and `coarse` are dictionaries with one entry per result. The key is the name of the result, as in
-    `MeshError`. The value is a tuple of parts; the sum of the parts is the result. `fall` is the steepest fall of
-    the pressure P = p/p_H from one node to the next. `kinks` holds the value of `_kink` for each surface [K].
+    The keys of `fine` and `coarse` are the names of the results in `MeshError`. A result is stored as a tuple of
+    numbers that add up to the result. `fall` is the steepest fall of the pressure P = p/p_H from one node to the next.
+    `kinks` holds the value of `_kink` for each surface [K].
     """
 
     fine: dict[str, tuple[float, ...]]
@@ -177,7 +178,7 @@ class Comparison:
     def error(self) -> MeshError:
         """Return the error, including the effect of spikes and kinks.
 
-        Every mesh has this effect, because even a mesh of `FINEST` nodes does not resolve spikes and kinks.
+        Even a mesh of `FINEST` nodes does not resolve spikes and kinks.
         """
         return self._error(min(LEFT_BY_FALL * self.fall, 1.0), self.kinks)
 
@@ -197,13 +198,11 @@ class Comparison:
 def refine(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt, budget: Budget
 ) -> tuple[Attempt, MeshError | None]:
-    """Solve a contact on finer meshes until the mesh is fine enough; return the last converged attempt.
+    """Solve a contact on finer meshes until the mesh is fine enough; return the last converged solution.
 
-    `attempt` is a converged solution, from which the refinement starts. Also return the error of the results on the
-    last mesh, or None if this error cannot be estimated. The refinement ends before the mesh is fine enough in three
-    cases: the mesh has the largest number of nodes; no refinement is requested; or the solution on a finer mesh does
-    not converge within the remaining steps. The decision depends on the contact only, and not on how the contact was
-    solved.
+    The refinement starts from the converged solution `attempt`. Also return the estimated error due to the last mesh,
+    or None if this error is not known. The refinement also ends in three other cases: the mesh has the largest number
+    of nodes; no refinement is requested; or a finer solution does not converge within the remaining steps.
     """
     comparison = compare(inputs, constants, resolution, attempt)
     while inputs.model.refine_mesh and not is_acceptable(comparison) and resolution.nodes < FINEST:
@@ -220,9 +219,9 @@ def refine(
 
 
 def is_acceptable(comparison: Comparison | None) -> bool:
-    """Return whether the error without the effect of spikes and kinks is within the limit.
+    """Return whether the error of the mesh, without the effect of spikes and kinks, is within the limit.
 
-    More nodes would reduce only this error. The result is False if the error is unknown.
+    Spikes and kinks are left out because more nodes would not remove their effect. An unknown error is not acceptable.
     """
     return comparison is not None and comparison.smooth_error().largest <= LARGEST_MESH_ERROR
 
@@ -230,9 +229,9 @@ def is_acceptable(comparison: Comparison | None) -> bool:
 def finer_nodes(nodes: int, comparison: Comparison | None) -> int:
     """Return the number of nodes of the next finer mesh, at most `FINEST`.
 
-    With this number, an error of second order would fall to the limit if the error is at most 16 times the limit. If
-    the error is not known, 4 times the limit is assumed. The number of intervals grows by a power of sqrt(2), so that
-    different contacts are solved on the same few meshes.
+    The present error divided by its limit determines this number, for an error of second order. The ratio is limited to
+    16; an unknown ratio is taken as 4. The number of intervals grows by a power of sqrt(2), so that different contacts
+    are solved on the same few meshes.
     """
     excess = 4.0 if comparison is None else min(comparison.smooth_error().largest / LARGEST_MESH_ERROR, 16.0)
     half_octaves = max(ceil(log2(excess)), 1)
@@ -242,11 +241,11 @@ def finer_nodes(nodes: int, comparison: Comparison | None) -> int:
 def compare(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt
 ) -> Comparison | None:
-    """Compare a contact with the same contact on half as many nodes (Richardson).
+    """Compare a solved contact with a solution of the same contact on half as many nodes (Richardson).
 
-    Return None if the solution on half as many nodes fails. The solution on half as many nodes starts from the
-    contact's own solution. One Newton step is usually enough. If there is a spike or a hot film, more steps are needed,
-    because the start values then contain a peak that is sharper than on half as many nodes.
+    Return None if the coarse solution fails. The fine solution gives the start values of the coarse solution. One
+    Newton step is usually enough. A pressure spike or a hot film needs more steps, because the peak is too sharp for
+    the coarse mesh.
     """
     grid = grid_for(resolution.gap, resolution.nodes // 2 + 1)
     state = interpolate(attempt.state, attempt.grid.x, grid.x)
@@ -267,25 +266,25 @@ def _steepest_fall(attempt: Attempt) -> float:
 
 
 def _kink(attempt: Attempt, surface: int) -> float:
-    """Return the largest excess [K] of a node's surface temperature over the mean of both neighbouring nodes.
+    """Return the largest excess [K] of a surface temperature over the mean of its two neighbouring nodes.
 
-    Only nodes downstream of the centre are considered. Such an excess arises if the heat of a pressure spike affects
-    only one node. On another mesh, a node may lie nearer to the spike and be hotter. The excess is used as an estimate
-    of the temperature difference between the hottest nodes of both meshes.
+    Only nodes downstream of the centre are considered. There is such an excess if a pressure spike heats only one node.
+    On another mesh, a node may lie nearer to the spike and be hotter. The excess is an estimate of this difference.
     """
     t = attempt.state.temperature[attempt.grid.x > 0.0, surface]
     return float((t[1:-1] - 0.5 * (t[:-2] + t[2:])).max())
 
 
 def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> dict[str, tuple[float, ...]]:
-    """Return the results of a contact, as a tuple of parts for each name of `MeshError`.
+    """Return the results of a contact from which the error due to the mesh is estimated.
+
+    The keys are names of `MeshError`.
 
     Local maxima of pressure, shear stress and film temperature are left out.
 
-    Friction, heat and flash temperatures have two parts: one upstream and one downstream of the place where pressure
-    spikes begin. On a finer mesh the film is thicker, so less heat arises upstream of this place. The spike is also
-    sharper, so more heat arises downstream of this place. Both effects may cancel: the sum of the parts is then equal
-    on two meshes, although the results have not converged. The parts themselves still differ in this case.
+    Friction, heat and flash temperatures are split into two parts, upstream and downstream of the place where pressure
+    spikes begin. A finer mesh gives a thicker film and thus less heat upstream. The finer mesh also gives a sharper
+    spike and thus more heat downstream. The two effects may cancel in the sum, and then only the parts show the error.
     """
     heights = measures.film_heights(constants, attempt)
     parts: dict[str, tuple[float, ...]] = {
@@ -305,6 +304,6 @@ def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> d
 
 
 def _before_and_behind(attempt: Attempt, by_node: FloatArray) -> tuple[float, float]:
-    """Sum `by_node` (n,) upstream and downstream of the place where pressure spikes begin, and return both sums."""
+    """Return the sum of `by_node` (n,) upstream of the place where pressure spikes begin, and the sum downstream."""
     before = attempt.grid.x <= BEFORE_SPIKES
     return float(by_node[before].sum()), float(by_node[~before].sum())

@@ -226,12 +226,11 @@ def _flux_scales(problem: Problem) -> tuple[float, float]:
 
 @inlined_kernel
 def _upstream(x: FloatArray, i: int) -> tuple[int, float]:
-    """Return the node upstream of node i, and the weight of this upstream node in an extrapolation.
+    """Return the second node of the extrapolation to the face on the right of node i, and the weight of this node.
 
-    The product of the flow coefficient B and the film thickness H is extrapolated to the face on the right of node i.
-    The extrapolation starts from the values at node i and at the node upstream of node i. At the first face, i is 0,
-    and there is no node upstream of node i. The function then returns node 1 and the weight 0.5, so that the result at
-    the face is the mean of nodes 0 and 1.
+    The extrapolated quantity is the product of the flow coefficient B and the film thickness H. The first node is node
+    i, and the second node is the node upstream of node i. Node 0 has no node upstream. For i = 0, the function
+    therefore returns node 1 and the weight 0.5, which gives the mean of nodes 0 and 1.
     """
     if i == 0:
         return 1, 0.5
@@ -322,10 +321,10 @@ def assemble_jacobian(grid: Grid, cavitated: BoolArray, faces: FaceFluxes, jacob
 
 @kernel
 def release_cavitated(faces: FaceFluxes, cavitated: BoolArray, tolerance: float) -> bool:
-    """Move a node from the broken to the full film if more oil flows in than out. Return whether any node was moved.
+    """Move nodes from the broken to the full film if more oil flows in than out. Return whether any node was moved.
 
-    A node stays in the broken film if inflow minus outflow, divided by the flux, is at most `tolerance`. Without this
-    tolerance, a node at the edge of the broken film can change between full and broken film for ever.
+    A node is moved only if inflow minus outflow exceeds `tolerance` times the flux. Without this tolerance, a node at
+    the edge of the broken film can change between full and broken film for ever.
     """
     changed = False
     for i in range(1, cavitated.size - 1):
@@ -344,7 +343,7 @@ def apply_pressure_step(
     step: FloatArray,
     scale: float,
 ) -> tuple[float, bool]:
-    """Change (P, H0) by `scale` times the step (n + 1,), or by less if the film would close.
+    """Change pressures P and separation H0 by `scale` times the step (n + 1,), or by less if the film would close.
 
     If the pressure at a node downstream of the centre would fall below zero, this node joins the broken film. The
     result is the scale that was used, and whether any node joined the broken film. The pressure at both ends is set to

@@ -100,9 +100,9 @@ def viscosities(problem: Problem, i: int, temperature: FloatArray, p: float, she
 
 @inlined_kernel
 def stress_response(problem: Problem, i: int, h: float, film: Film) -> None:
-    """Compute the derivatives of the mid-film stress with respect to temperatures, p, G = h dp/dx and h, in place.
+    """Compute the derivatives of the shear stress half way across the film, at a constant sliding speed.
 
-    The sliding speed is held constant. The formulas hold for any law of shear.
+    The derivatives of column `i` with respect to the temperatures, p, G = h dp/dx and h are written into `film.mid`.
     """
     shear, mid, m = film.shear, film.mid, film.shear.stress.shape[1]
     height, total, by_p, by_g = 1.0 / m, 0.0, 0.0, 0.0

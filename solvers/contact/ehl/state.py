@@ -35,18 +35,17 @@ class State(NamedTuple):
 
 
 def no_steps() -> RecordArray:
-    """Return the history of a state before the first iteration."""
+    """Return the record `history` of a `State` before the first iteration."""
     history = records(1, floats("iterations", "pressure_change", "temperature_change"))
     history.pressure_change = history.temperature_change = np.nan
     return history
 
 
 class Work(NamedTuple):
-    """Quantities that follow from a state.
+    """Work arrays for quantities that follow from a state.
 
-    `height` is the film thickness H (n,), and `gradient` is dP/dX (n,). The array `at` (n,) holds one record of type
-    PLACE per column: pressure, h dp/dx and film thickness in SI units. The other fields hold flow coefficients, mass
-    fluxes, shear and heat.
+    `height` is the film thickness H (n,), and `gradient` is dP/dX (n,). `at` (n,) holds pressure, h dp/dx and film
+    thickness in SI units. The other fields hold flow coefficients, mass fluxes, shear and heat.
     """
 
     height: FloatArray
@@ -154,7 +153,7 @@ def match_stream(problem: Problem, state: State, work: Work) -> None:
 def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bool:
     """Compute the residuals of all columns and faces; return whether a pressure gradient had to be limited.
 
-    First, the function sets the mark `state.cavitated` of the last node to the mark of the node before it.
+    The last node is marked as cavitated if the node before it is cavitated.
     """
     state.cavitated[-1] = state.cavitated[-2]
     limited = evaluate_flow(problem, grid, state, work)
@@ -168,8 +167,8 @@ def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bo
 def linearise_state(problem: Problem, state: State, work: Work, damping: float) -> None:
     """Compute the derivatives of stress, flow and heat balance of all columns of an evaluated state.
 
-    Three quantities in the heat balance are held fixed: the stream function, the fluid fraction, and the density from
-    which the heat of compression is computed. `linearise_balances` explains `damping`.
+    The stream function, the fluid fraction, and the density in the heat of compression are held fixed.
+    `linearise_balances` explains `damping`.
     """
     n = work.at.size
     linearise_columns(problem, FIRST, n, work.at, work.film, work.coefficients)

@@ -30,9 +30,8 @@ REVERSE_SWEEPS = 3  # number of sweeps if there is reverse flow, chosen; all swe
 def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -> None:
     """Compute a first guess of the temperatures at given pressures, one column after the other.
 
-    The flow is Couette flow without a pressure gradient, with the same mass flux in all columns. The iteration of a
-    column starts from the temperatures of the column before. Thus all columns stay on the same branch of solutions as
-    the inlet.
+    The flow is Couette flow with the same mass flux in all columns. The iteration of a column starts from the
+    temperatures of the preceding column, so that all columns stay on the same branch of solutions.
     """
     film, heat, temperature = work.film, work.heat, state.temperature
     n, nodes = temperature.shape
@@ -82,8 +81,7 @@ def last_reverse(convection: Convection) -> int:
 def _relax_column(i: int, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray) -> None:
     """Solve the linearised heat balance of column i for the temperature step, and add `given` to this step.
 
-    The heat balance contains the latest steps of both neighbouring columns and the changes of both surfaces.
-    `temperature_step` explains `given` and `weight`.
+    The latest steps of both neighbouring columns are used. `temperature_step` explains `given` and `weight`.
     """
     from_left, from_right, residual = heat.convection.from_left, heat.convection.from_right, heat.column.residual
     n, m = step.shape[0], step.shape[1] - 1
@@ -105,11 +103,11 @@ def temperature_step(
 ) -> None:
     """Solve the linearised heat balance of all columns for the temperature step `step` (n, k).
 
-    The solution marches along the flow. If oil flows backward in some columns, several sweeps precede this march. A
-    sweep runs forward and then backward over all columns up to the last column with backward flow. In a sweep, each
-    column uses the latest step of its right neighbour. `given` (n, k) is the temperature change that a change of
-    pressure causes at fixed temperatures upstream. The residual is multiplied by `weight`, which is 1 for a Newton step
-    and 0 if only the effect of `given` is wanted.
+    `given` (n, k) is the temperature change that a change of pressure causes if the temperatures upstream are fixed.
+    `weight` multiplies the residual. It is 1 for a Newton step, and 0 to compute only the effect of `given`.
+
+    The solution marches along the flow. If oil flows backward in some columns, several sweeps over these columns come
+    before the march.
     """
     n, last = step.shape[0], step.shape[1] - 1
     surfaces, residual = heat.surfaces, heat.column.residual

@@ -1,13 +1,14 @@
-"""The gap over the face at which mesh and shafts are in equilibrium.
+"""The gap over the face at which the gear mesh and the shafts are in equilibrium.
 
-The gap determines how the load is distributed over the face. This load bends the shafts, and the bent shafts in turn
-cause a gap. Both gaps have to be equal. The unknown is the gap g at the stations. The residual R is g minus the gap
-that shafts, bearings and couplings cause under the load that belongs to g. Newton's step dg is the solution of the
-linear equations (I - D B) dg = -R. Here B = dQ/dg is the derivative of the mesh force Q. The force Q is a mean over a
-base pitch. The shafts follow only this mean, because the mesh frequency is far higher than the natural frequencies of
-bending and of the bearing films. D is the derivative of the shafts' gap with respect to Q; the response of the
-couplings is part of D. The mean of the gap belongs to the transmission error and is subtracted. If no start value is
-given, an iteration with fewer roll positions and slices comes first. This first iteration makes most of the steps.
+The gap between the flanks determines how the load is distributed over the face. The load bends the shafts, and the bent
+shafts in turn cause a gap. In equilibrium, both gaps are equal. The unknown is the gap g at the stations, which are
+points along the face. The residual R is g minus the gap that shafts, bearings and couplings cause under the load that
+belongs to g. Newton's step dg is the solution of the linear equations (I - D B) dg = -R. Here B = dQ/dg is the
+derivative of the mesh force Q. The force Q is a mean over a base pitch. The shafts follow only this mean, because the
+mesh frequency is far higher than the natural frequencies of bending and of the bearing films. D is the derivative of
+the shafts' gap with respect to Q; the response of the couplings is part of D. The mean of g over the face is
+subtracted, because this mean belongs to the transmission error. If no start value is given, an iteration with fewer
+roll positions and slices comes first. This first iteration makes most of the steps.
 """
 
 from dataclasses import dataclass, replace
@@ -38,8 +39,8 @@ LEAST_STEP = 1 / 64  # chosen: a step that was shortened to a smaller share is a
 class LoadedMesh:
     """The mesh, and the part of the gap that does not depend on the load.
 
-    `fixed` [m] is this part at points of the face; the stations are among these points. `scale` converts the force of
-    the contacts into the transverse force that the shafts carry.
+    `fixed` [m] is this part at points of the face. The mesh force acts on the shafts at the `stations` [m].
+    `scale` converts the force of the contacts into the transverse force that the shafts carry.
     """
 
     prepared: PreparedMesh
@@ -95,8 +96,9 @@ class Equilibrium:
     """Equilibrium of mesh and shafts.
 
     `gap` [m] is the gap that the shafts cause at the stations, minus the mean over the face; `mean_gap` [m] is this
-    mean. `loads` are the loads of all ports [N, N m]. `by_gap` [N/m] is the derivative of the force at the stations
-    with respect to an additional gap at the stations. This derivative includes the responses of both mesh and shafts.
+    mean. `loads` are the loads at the stations and on the hubs [N, N m]. `by_gap` [N/m] is the derivative of the force
+    at the stations with respect to an additional gap at the stations. This derivative includes the responses of both
+    mesh and shafts.
     """
 
     gap: FloatArray
@@ -167,7 +169,6 @@ def _rough(unit: Unit, mesh: LoadedMesh, hubs: HubLoads) -> tuple[FloatArray, Hu
 
 
 def _equilibrium_at(mesh: LoadedMesh, state: "_State", iterations: int) -> Equilibrium:
-    """Return the equilibrium at a converged state."""
     answer, by_gap = state.answer, mesh.scale * state.response.derivative
     return Equilibrium(
         gap=state.gap,

@@ -1,6 +1,6 @@
 """Mean, slope and crown of curves over the face.
 
-The curves are linear between equidistant stations, and the integrals of these curves are exact.
+A curve is given by values at equidistant stations, and is linear between them. Its integrals are exact.
 """
 
 import numpy as np
@@ -58,10 +58,7 @@ def face_crown(values: FloatArray) -> float:
 
 
 def _gauss(values: FloatArray) -> tuple[FloatArray, FloatArray, float]:
-    """Return positions, values and weight of two Gauss points per interval.
-
-    The points integrate cubic functions exactly.
-    """
+    """Return positions, values and weight of two Gauss points per interval of a piecewise linear curve."""
     steps = values.size - 1
     shares = np.array([0.5 - 0.5 / np.sqrt(3), 0.5 + 0.5 / np.sqrt(3)])
     eta = (np.arange(steps)[:, None] + shares) / steps

@@ -57,10 +57,8 @@ class Yielding:
 def free_hubs(unit: Unit, force: FloatArray) -> HubLoads:
     """Compute the tilts of the hubs while the shafts carry only a force over the face [N].
 
-    The loads of the couplings are computed at these tilts, but they do not act on the shafts. The iteration for the
-    balance starts from these tilts. Tilts of hubs on straight shafts would be a worse start: a hub on a straight shaft
-    may have no tilt, and the friction of a hub is stiffest at zero tilt. Raises InvalidInput if a tilt is out of the
-    range of the coupling model.
+    The result also contains the loads of the couplings at these tilts, although these loads do not act on the shafts.
+    Raises InvalidInput if a tilt is out of the range of the coupling model.
     """
     ports = unit.couplings
     if not ports:
@@ -95,9 +93,9 @@ def respond(unit: Unit, force: FloatArray, start: HubLoads) -> Yielding:
 
     Notes
     -----
-    Eq. D12. If the iteration from `start` does not converge, a second iteration starts from the tilts of the hubs
-    without coupling loads. If the second iteration does not converge either, the coupling loads grow step by step from
-    zero, and the tilts are computed at each step. A third iteration starts from the tilts at the last step.
+    Eq. D12. Up to three iterations are tried. The first iteration starts from `start`. The second iteration starts
+    from the tilts of the hubs without coupling loads. Before the third iteration, the coupling loads grow step by step
+    from zero. The third iteration starts from the tilts at the last of these steps.
     """
     yielding, residual = _solve(unit, force, start)
     if yielding is None:
@@ -114,11 +112,11 @@ def respond(unit: Unit, force: FloatArray, start: HubLoads) -> Yielding:
 
 @dataclass(frozen=True, slots=True)
 class _State:
-    """Hubs at assumed tilts, the motion of the ports, and the residual.
+    """Hubs at assumed tilts, the resulting motion of the shafts, and the residual of the tilts.
 
     The residual is the assumed tilts minus the tilts that follow from the motion. `by_tilts` is the derivative of the
-    residual with respect to the tilts. `by_share` is the derivative of the residual with respect to the factor by which
-    the coupling loads are multiplied.
+    residual with respect to the tilts. `by_share` is the derivative of the residual with respect to the fraction of
+    the coupling loads that acts on the shafts.
     """
 
     hubs: HubLoads
@@ -134,7 +132,7 @@ class _State:
 
 
 def _evaluate(unit: Unit, force: FloatArray, hubs: HubLoads, share: float = 1.0) -> _State:
-    """Return the state of the hubs if the coupling loads are multiplied by `share`."""
+    """Return the state of hubs at given tilts. Only the fraction `share` of the coupling loads acts on the shafts."""
     levers, own = _levers(unit.couplings), force.size
     motion, derivative = unit.motion(np.concatenate([force, share * hubs.loads]))
     through = levers @ derivative[own:, own:]
@@ -197,24 +195,20 @@ def _try_tilts(unit: Unit, force: FloatArray, tilts: FloatArray, share: float = 
 
 
 def _yielding(unit: Unit, count: int, state: _State) -> Yielding:
-    """Return the motion of the ports while the hubs are in balance, and the derivative of this motion.
-
-    The motion is differentiated with respect to the force over the face.
-    """
+    """Return the motion of the ports in balance, and its derivative with respect to the force over the face."""
     mesh, hubs = state.derivative[:count], state.derivative[count:]
     through = solve_linear(state.by_tilts, _levers(unit.couplings) @ hubs[:, :count])
     return Yielding(state.hubs, state.motion, mesh[:, :count] + mesh[:, count:] @ state.hubs.by_tilts @ through)
 
 
 def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
-    """Follow the tilts of the hubs while the coupling loads grow from zero to their full value.
+    """Follow the tilts of the hubs while a growing fraction of the coupling loads acts on the shafts.
 
     The path begins at `free`, the hubs without coupling loads. If friction falls with the sliding velocity, a hub can
-    jump between sliding and sticking. At such a jump the share of the coupling loads decreases along the path. A step
-    therefore has a given length along the path, and the share is an unknown. When the length is computed, the change of
-    a hub's tilt is divided by the size of the tilt. Each step goes along the tangent of the path, so that the end of
-    the step lies near the path. Newton's iteration then finds the next point of the path (Allgower and Georg 2003,
-    chapter 2). This point lies in the plane that is normal to the step and passes through the end of the step.
+    jump between sliding and sticking. To follow such a jump, the fraction must decrease for a while. The fraction is
+    therefore an unknown, and the length of a step along the path is given (pseudo-arclength continuation, Allgower and
+    Georg 2003, chapter 2). A step along the tangent of the path is corrected by Newton's iteration. Return the hubs
+    approximately under the full loads, or at the last point of the path if the full loads are not reached.
     """
     share, state, length = 0.0, _evaluate(unit, force, free, 0.0), LONGEST
     direction = np.append(np.zeros(free.tilts.size), 1.0)
@@ -237,28 +231,28 @@ def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
 
 
 def _sizes(tilts: FloatArray) -> FloatArray:
-    """Return the scales of all tilt components [rad].
+    """Return a scale [rad] for each component of the tilts.
 
-    Both components of a tilt have the same scale: the magnitude of this tilt, or `LEAST_SIZE` if the tilt is smaller.
+    The scale is the magnitude of the tilt to which the component belongs, and at least `LEAST_SIZE`.
     """
     return np.repeat(np.maximum(np.hypot(tilts[::2], tilts[1::2]), LEAST_SIZE), 2)
 
 
 def _path_direction(state: _State, scale: FloatArray, direction: FloatArray) -> FloatArray:
-    """Return the unit vector along the path, with tilts divided by their scales.
+    """Return the unit tangent of the path that `_raise_loads` follows, with tilts divided by their scales.
 
-    `direction` is the direction of the last step. The path can be followed in two opposite directions. The result
-    points in the direction that forms an acute angle with `direction`.
+    `direction` is the direction of the last step. The tangent forms an acute angle with it, so that the path is not
+    followed backwards.
     """
     tangent = solve_linear(_path_matrix(state, scale, direction), np.append(np.zeros(scale.size), 1.0))
     return np.asarray(tangent / np.linalg.norm(tangent))
 
 
 def _path_matrix(state: _State, scale: FloatArray, direction: FloatArray) -> FloatArray:
-    """Return the matrix of Newton's step on the path.
+    """Return the matrix of Newton's step for the path that `_raise_loads` follows.
 
-    The unknowns are the tilts divided by their scales, and the share of the coupling loads. The last row is the
-    derivative of the distance along `direction`; the other rows are the derivatives of the scaled residual.
+    The unknowns are the scaled tilts and the fraction of the coupling loads. The last row is the derivative of the
+    distance along `direction`. The other rows are the derivatives of the scaled residual.
     """
     return np.vstack([np.column_stack([state.by_tilts * scale, state.by_share]) / scale[:, None], direction])
 
@@ -266,10 +260,10 @@ def _path_matrix(state: _State, scale: FloatArray, direction: FloatArray) -> Flo
 def _find_on_path(
     unit: Unit, force: FloatArray, start: _State, share: float, scale: FloatArray, step: FloatArray
 ) -> tuple[float, _State] | None:
-    """Return the share of the coupling loads and the state at the next point of the path.
+    """Find the next point of the path that `_raise_loads` follows, by Newton's iteration.
 
-    The point lies on a plane. The plane passes through the end of the vector `step`, and is normal to this vector.
-    Return None if Newton's iteration fails.
+    The point lies in the plane that passes through the end of the vector `step` and is normal to this vector. Return
+    the fraction of the coupling loads at the point, and the state there. Return None if the iteration fails.
     """
     length = float(np.linalg.norm(step))
     place = step

@@ -53,9 +53,9 @@ def _even_gap(inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, equilibriu
 
 
 def gap_parts(unit: Unit, loads: FloatArray) -> Parts:
-    """Return the contribution of each cause to the slope of the gap.
+    """Return the contribution of each cause to the slope of the gap between the flanks.
 
-    `loads` holds the loads at the ports [N, N m]. The ports are the stations of the face and the hubs on the shafts.
+    `loads` holds first the loads at the stations of the face, and then the loads at the hubs on the shafts [N, N m].
     """
     count = unit.stations.size
     force, hubs = loads[:count], loads[count:]
@@ -90,9 +90,9 @@ def gap_parts(unit: Unit, loads: FloatArray) -> Parts:
 def _curves(
     inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, thermal: ThermalLead, equilibrium: Equilibrium
 ) -> GapCurves:
-    """Return the gaps over the face.
+    """Return the curves of the gaps and of the load over the face.
 
-    The gap due to the modifications contains only the lead modifications, minus their mean over the face.
+    Of the modifications, only the lead modifications enter the gap. Their mean over the face is subtracted.
     """
     plane, count = mesh.prepared.path.plane, unit.stations.size
     form = mesh.prepared.mesh.gap._replace(profile_slope=0.0, profile_crowning=0.0, tip_relief=0.0, root_relief=0.0)

@@ -65,10 +65,7 @@ class ThermalLead:
 
 @lru_cache(maxsize=64)
 def gas_heat(setup: PumpingSetup, pinion_speed: float) -> GasHeat:
-    """Compute the temperature rise of the pumped gas. Raises the errors of `pumping.solve`.
-
-    The results are cached, because most studies vary inputs that have no effect on the pumping.
-    """
+    """Compute the temperature rise of the gas that a gear pair pumps. Raises the errors of `pumping.solve`."""
     pumped = pumping.solve(PumpingInputs(setup, pinion_speed))
     (at_pinion, pinion), (at_wheel, wheel) = _profile(pumped.pinion_spaces), _profile(pumped.wheel_spaces)
     spaces = (pumped.pinion_spaces, pumped.wheel_spaces)
@@ -79,7 +76,10 @@ def gas_heat(setup: PumpingSetup, pinion_speed: float) -> GasHeat:
 
 
 def _profile(spaces: SpacesResult | None) -> tuple[FloatArray, FloatArray]:
-    """Return positions on the face and temperature rises; the rise is 0 if the flow model has no temperature."""
+    """Return positions on the face, and the temperature rises of the gas at these positions.
+
+    If the flow model does not compute temperatures, the rise is 0.
+    """
     if spaces is None or spaces.profile.temperature_rise is None:
         return np.zeros(1), np.zeros(1)
     return spaces.profile.position, spaces.profile.temperature_rise

@@ -22,9 +22,9 @@ class BearingState:
     """A loaded bearing.
 
     `displacement` [m] is the displacement of the shaft without the offset of the bore. `flexibility` [m/N] is the
-    derivative of the displacement with respect to the load. Only plain bearings have an eccentricity ratio [-], an
-    attitude angle between load and displacement [rad], a thinnest film [m] and a load per projected area [Pa]; for
-    other bearings these values are None. The friction power [W] of other bearings is 0.
+    derivative of the displacement with respect to the load. Plain bearings also have an eccentricity ratio [-], an
+    attitude angle between load and displacement [rad], a thinnest film [m] and a load per projected area [Pa]. For
+    other bearings these values are None, and the friction power [W] is 0.
     """
 
     load: FloatArray

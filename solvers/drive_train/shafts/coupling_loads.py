@@ -41,11 +41,11 @@ LEAST_TILT = 1e-12  # rad; below this tilt the moments are proportional to the t
 
 @dataclass(frozen=True, slots=True)
 class HubMoments:
-    """Moments of one hub [N m], and the limit of the hub's thrust [N].
+    """Moments of one hub [N m], and the largest axial thrust of the hub [N].
 
-    `straightening` is the sum a = M_s + M_e of the straightening moment and the elastic moment. `loss` is the loss
-    moment M_l of friction. The hub `sticks` if none of its teeth slides. `share` is the friction moment divided by the
-    friction moment of full sliding.
+    `straightening` is the sum of the straightening moment and the elastic moment, which both act against the tilt.
+    `loss` is the loss moment of friction. The hub `sticks` if none of its teeth slides. `share` is the friction moment
+    divided by the friction moment of full sliding.
     """
 
     straightening: float
@@ -58,11 +58,11 @@ class HubMoments:
 
 @dataclass(frozen=True, slots=True)
 class CouplingPort:
-    """A coupling, and the torque [N m], speed [rad/s] and rotation of the unit's shaft that carries the coupling.
+    """A coupling, and the torque [N m], speed [rad/s] and rotation of the unit's shaft on which the coupling sits.
 
-    The tilts of both hubs are `rest` + `lever` @ v. The vector v is the motion of the shaft at the unit's hub:
-    displacements U and V along X and Y, both slopes, and the displacement along Z.
-    `sleeve_weight` (X, Y) [N] is the part of the sleeve's weight that the unit's hub carries.
+    The tilts of both hubs are `rest` + `lever` @ v. The vector v is the motion of the shaft at the hub: displacements U
+    and V along X and Y, both slopes, and the displacement along Z. `sleeve_weight` (X, Y) [N] is the part of the
+    sleeve's weight that the shaft carries.
     """
 
     inputs: UnitCoupling
@@ -148,7 +148,7 @@ def sliding_tilt(port: CouplingPort, friction: float) -> float:
 
 
 def axial_share(port: CouplingPort) -> float:
-    """Compute the share of the friction that is left to resist tilting.
+    """Compute the share of a coupling's friction that is left to resist tilting beside the axial thrust.
 
     Parameters
     ----------
@@ -162,7 +162,7 @@ def axial_share(port: CouplingPort) -> float:
 
     Notes
     -----
-    Eq. D7. The axial thrust of the coupling is the share tau of the friction limit.
+    Eq. D7. tau is the axial thrust of the coupling divided by the friction limit.
     """
     return cos(pi * min(abs(port.inputs.thrust_fraction), 1.0) / 2)
 
@@ -192,10 +192,10 @@ def elastic_plastic(ratio: float) -> tuple[float, float]:
 
 
 def regularised(ratio: float) -> tuple[float, float]:
-    """Return loss moment and elastic moment of a hub whose teeth slide at any tilt; the elastic moment is 0.
+    """Return loss moment and elastic moment of a hub, both divided by the friction moment of full sliding.
 
-    Both moments are divided by the friction moment of full sliding. The loss moment rises smoothly with the tilt. This
-    friction law is for comparison only.
+    In this friction law the teeth slide at any tilt. The loss moment rises smoothly with the tilt, and the elastic
+    moment is 0. The law is for comparison only.
     """
     return ratio / sqrt(ratio**2 + 1), 0.0
 
@@ -265,7 +265,7 @@ def _operating_point(port: CouplingPort, tilt: float) -> CouplingInputs:
 
 @contextmanager
 def _prefixed(port: CouplingPort) -> Iterator[None]:
-    """If the coupling model raises an error, prefix the error's field names with the coupling's path in the unit."""
+    """Prefix the field names in errors of the coupling model with the path of the coupling in the unit."""
     try:
         yield
     except InvalidInput as error:
@@ -317,9 +317,9 @@ def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, F
 def _polar(tilt: FloatArray, moments: FloatArray, slopes: FloatArray, torque: float) -> tuple[FloatArray, FloatArray]:
     """Return the vector v = -a e + (b + torque delta) Z x e, and the derivative of v with respect to the tilt.
 
-    Here delta is the size of the tilt, e is the unit vector in the direction of the tilt, and Z is the unit vector
-    along the shaft. The first two values of `moments` are a and b. The first two values of `slopes` are the derivatives
-    of a and b with respect to delta. If delta is smaller than `LEAST_TILT`, a and b are proportional to delta.
+    The tilt has the size delta and the direction e; Z is the unit vector along the shaft. `moments` begins with a and
+    b, and `slopes` begins with their derivatives with respect to delta. Below `LEAST_TILT`, a and b are proportional to
+    delta.
     """
     size = hypot(*tilt)
     direction = tilt / size if size > 0.0 else np.array([1.0, 0.0])

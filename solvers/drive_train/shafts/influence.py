@@ -1,12 +1,11 @@
 """Shafts, bearings and couplings as one elastic system.
 
-The system determines the gap over the face and the motion of the hubs under given loads.
-The ports of the system are the stations of the face and the hubs of the couplings. The transverse force Q at a station
-loads both shafts with a force, a tilting moment and a torque. The matrix A holds the coefficients of these loads, and
-the transpose of A converts the motion of the shafts into the gap. If C is the flexibility of the shafts, the elastic
-gap is A^T C A Q. The matrix A^T C A is symmetric and positive semidefinite, and Q^T A^T C A Q is twice the strain
-energy. If the ports carry loads q, the bearings carry the loads L q. If displacements u of the bearings move the shaft,
-the ports move by L^T u.
+Under given loads, the system yields the gap over the face and the motion of the coupling hubs. The stations along the
+face and the hubs are called ports. A force at a station loads both shafts with a force, a tilting moment and a torque.
+A holds the coefficients of these loads, C is the flexibility of the shafts, and Q holds the forces at the stations. The
+elastic gap is then A^T C A Q. The matrix A^T C A is symmetric and positive semidefinite, and Q^T A^T C A Q is twice the
+strain energy. If loads q act at the ports, the bearings carry L q. If the bearings are displaced by u, the ports move
+by L^T u.
 """
 
 from dataclasses import dataclass
@@ -27,11 +26,12 @@ from solvers.gears.pair import PathOfContact
 class ShaftPorts:
     """A shaft with N nodes, and the loads on these nodes.
 
-    `loads` (2 planes, 2N, ports) and `torques` (N, ports) are the loads on the nodes per unit load of the ports.
-    `mesh_loads` (2 planes, 2N, stations) holds only the transverse forces of the stations. `weight` and `collar`
-    (2 planes, 2N) are constant loads. `weight` is the weight of the shaft and of the parts of the sleeves that the hubs
-    on this shaft carry. `collar` is the moment of the thrust collar under the axial force of the mesh. The moment of
-    the collar under the thrust of the pinion's coupling is part of `loads`.
+    The ports are the stations along the face and the hubs of the couplings. `loads` (2 planes, 2N, ports) and `torques`
+    (N, ports) are the loads on the nodes per unit load at a port. `mesh_loads` (2 planes, 2N, stations) holds only the
+    transverse forces at the stations.
+
+    `weight` and `collar` (2 planes, 2N) are constant loads. `weight` is the weight of the shaft, and of the part of
+    each sleeve that the shaft carries. `collar` is the moment of the thrust collar under the axial force of the mesh.
     """
 
     model: ShaftModel
@@ -54,22 +54,22 @@ class ShaftPorts:
         return np.asarray(loads @ self.model.flexibility)
 
     def reading(self, motion: FloatArray) -> FloatArray:
-        """Return the motion of the ports that follows from a motion of the nodes (2 planes, 2N)."""
+        """Convert a motion of the nodes (2 planes, 2N) into the motion of the ports."""
         return np.asarray(np.einsum("dnp,dn->p", self.loads, motion))
 
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """The elastic system of a unit at its ports: the stations of the face, then five ports per coupling.
+    """The elastic system of a unit. Its ports are the stations along the face, and five motions per coupling.
 
-    The five ports of a coupling belong to five motions of the shaft at the unit's hub: the displacements U and V along
-    X and Y, both slopes, and the motion along Z. The motion along Z follows from the slopes of both shafts at the
-    thrust collar. Without a collar this motion is 0. For a coupling of the wheel this motion is always 0.
+    The five motions are those of the shaft at the hub of the coupling: the displacements U and V along X and Y, both
+    slopes, and the displacement along Z. The displacement along Z follows from the slopes at the thrust collar. It is 0
+    without a collar, and for a coupling of the wheel.
 
     `elastic` (ports, ports) [m/N, ...] is the flexibility with the bearings at rest. `rest` is the motion of the ports
-    under the constant loads. Under loads q of the ports, the loads on the bearings are `bearing_loads` @ q +
-    `bearing_rest` [N]. The order of these loads is: X and Y at the pinion's first bearing, X and Y at the pinion's
-    second bearing, then the same for the wheel. `offsets` [m] are the offsets of the bores in the same order.
+    under the constant loads. If loads q act at the ports, the bearings carry `bearing_loads` @ q + `bearing_rest` [N].
+    The order is: X and Y at the pinion's first bearing, X and Y at the pinion's second bearing, then the same for the
+    wheel. `offsets` [m] are the offsets of the bores in the same order.
     """
 
     frame: Frame
@@ -83,7 +83,7 @@ class Unit:
     offsets: FloatArray
 
     def bearings(self, loads: FloatArray) -> list[BearingState]:
-        """Return the states of the four bearings under the loads of the ports."""
+        """Return load, displacement and other results of the four bearings under given loads of the ports."""
         carried = self.bearing_loads @ loads + self.bearing_rest
         return [
             bearing_state(bearing, carried[4 * i + 2 * k : 4 * i + 2 * k + 2], side.speed, side.rotation)
@@ -92,7 +92,7 @@ class Unit:
         ]
 
     def motion(self, loads: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the motion of the ports under loads of the ports.
+        """Return the motion of the ports under given loads.
 
         Also return the derivative (ports, ports) of the motion with respect to the loads.
         """
@@ -163,7 +163,7 @@ def unit(inputs: DriveTrainInputs, path: PathOfContact) -> Unit:
 
 
 def _elastic(side: ShaftPorts) -> FloatArray:
-    """Return the flexibility of one shaft at the ports, for bending in both planes and for torsion."""
+    """Return the flexibility (ports, ports) of one shaft, for bending in both planes and for torsion."""
     bending = sum(plane.T @ side.model.flexibility @ plane for plane in side.loads)
     return np.asarray(bending + side.torques.T @ side.model.torsion @ side.torques)
 
@@ -186,10 +186,9 @@ def _shaft_ports(
     speed: float,
     index: int,
 ) -> ShaftPorts:
-    """Return the shaft with the index `index`, and the loads of the ports on the nodes of this shaft.
+    """Return a shaft and the loads on its nodes per unit load at the ports.
 
-    The index is 0 for the shaft of the pinion and 1 for the shaft of the wheel. The mesh force on the wheel is opposite
-    to the mesh force on the pinion.
+    `index` is 0 for the shaft of the pinion and 1 for the shaft of the wheel.
     """
     shaft, name, sign = inputs.shafts[index], ("pinion", "wheel")[index], (1.0, -1.0)[index]
     z = directions.positions(inputs.face_start, path.plane.face_width, stations)
@@ -240,9 +239,8 @@ def _collar_loads(
 ) -> FloatArray:
     """Return the nodal loads of an axial force of 1 N at the thrust collar; without a collar the loads are 0.
 
-    The collar balances the axial forces that mesh and couplings exert on the pinion. The force of 1 N points towards +Z
-    on the pinion and towards -Z on the wheel. The force acts at the radius of the collar, and therefore loads the shaft
-    with a tilting moment. This moment acts at y = b, which is one end of the face.
+    The force points towards +Z on the pinion and towards -Z on the wheel. It acts at the radius of the collar, and
+    therefore loads the shaft with a tilting moment. This moment acts at the end y = b of the face.
     """
     loads = np.zeros((2, 2 * model.z.size))
     if inputs.collar_radius is not None:

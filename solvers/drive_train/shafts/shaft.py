@@ -156,9 +156,8 @@ def _flexibility(
 def _torsion(shaft: Shaft, z: FloatArray, elements: list[ShaftSection], torque_position: float) -> FloatArray:
     """Return the matrix (N, N) of the twist at node i per torque at node j.
 
-    If the nodes i and j lie on the same side of the torque input, the element (i, j) is the twist of the shaft between
-    the torque input and the node that is nearer to the torque input. If the nodes lie on different sides of the torque
-    input, the element is 0.
+    If both nodes lie on the same side of the torque input, the element (i, j) is the twist of the shaft between the
+    torque input and the nearer node. If the nodes lie on different sides, the element is 0.
     """
     modulus = shaft.youngs_modulus / (2 * (1 + shaft.poisson_ratio))
     twist = np.diff(z) / (2 * modulus * np.array([second_moment(part) for part in elements]))

@@ -36,9 +36,9 @@ _REFINEMENTS = (1, 2, 4, 8)  # factors on the number of steps, tried in turn unt
 def pocket_chain(
     gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray, closure: Closure, steps: int = STEPS
 ) -> SpaceFlow:
-    """March every stretch of a tooth space through the stroke, in at least `steps` steps per stretch.
+    """March the gas in all stretches of a tooth space through the stroke, in at least `steps` steps per stretch.
 
-    The gas is recorded at each `angle` [rad]. Raises NoSolution: newton_not_converged if a step does not converge.
+    The gas is recorded at each `angle` [rad]. Raises NoSolution (`newton_not_converged`) if a step does not converge.
     """
     substeps = ceil(steps / (angle.size - 1))
     marches = [_march(gas, stretch, duct, angle, closure, substeps) for stretch, duct in ducts]
@@ -68,10 +68,10 @@ def _march(gas: Gas, stretch: Stretch, duct: Duct, angle: FloatArray, closure: C
 def march_chain(
     gas: Gas, duct: Duct, pockets: RecordArray, angles: FloatArray, substeps: int, record: Record, isentropic: bool
 ) -> tuple[int, float]:
-    """March over all `angles` [rad] in equal steps.
+    """March the pockets over all `angles` [rad] in equal steps.
 
-    If all steps converge, return the number of steps, and 0 as the residual. If a step does not converge, return -1 as
-    the number of steps, and the residual of this step.
+    Return the number of steps, and 0 as the residual. If a step does not converge, return -1 and the residual of this
+    step instead.
     """
     turn = (angles[-1] - angles[0]) / ((angles.size - 1) * substeps)
     dt = turn / duct.speed
@@ -111,8 +111,8 @@ def _renew(
 ) -> None:
     """Fill pockets with ambient gas when their stroke begins, and update the balances of mass and energy.
 
-    Each balance has the fields `begun` and `ended`. When the stroke of a pocket begins, the content of the pocket is
-    added to `begun`. When the stroke ends, the content of the pocket is added to `ended`.
+    In a balance, `begun` counts the gas in the pockets whose stroke begins, and `ended` counts the gas in the pockets
+    whose stroke ends.
     """
     per_energy = gas.exponent - 1.0
     for i in range(low, high):
@@ -140,13 +140,12 @@ def _set_walls(duct: Duct, pockets: RecordArray, low: int, high: int, angle: flo
 
 @kernel
 def _temperature(gas: Gas, pressure: float, area: float, content: float) -> float:
-    """Compute the temperature of a pocket [K]."""
     return pressure * area / (content * gas.constant)
 
 
 @kernel
 def _mach(gas: Gas, left: float, right: float) -> float:
-    """Compute the Mach number in the narrowest section of a jet from the pressures on both sides [Pa]."""
+    """Compute the Mach number in the narrowest section of a jet from the pressures on both sides of the jet [Pa]."""
     return throat_mach(gas, max(left, right), min(left, right))
 
 
@@ -207,7 +206,7 @@ def _record_jets(gas: Gas, pockets: RecordArray, record: Record, low: int, high:
 def _record_pockets(gas: Gas, duct: Duct, pockets: RecordArray, record: Record, low: int, high: int, dt: float) -> None:
     """Record wall losses, mean temperatures and extreme pressures of the active pockets.
 
-    Also copy the new state of each active pocket to `old`, from which the next step starts.
+    Also copy the new state of each active pocket to `old`, the state from which the next step starts.
     """
     mass = energy = work = 0.0
     for i in range(low, high):

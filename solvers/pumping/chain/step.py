@@ -60,9 +60,9 @@ the step.
 
 
 def empty_pockets(pockets: int) -> RecordArray:
-    """Return an array of records of POCKET for `pockets` pockets.
+    """Return the array of records for a chain of `pockets` pockets.
 
-    The array has `pockets` + 1 records. The last record describes the face above the last pocket.
+    The array has one more record. This last record describes the face above the last pocket.
     """
     return records(pockets + 1, POCKET)
 
@@ -99,8 +99,8 @@ def ambient(gas: Gas) -> Side:
 def passages(gas: Gas, left: Side, right: Side) -> tuple[Passage, Passage]:
     """Compute the flow of mass and the flow of heat through an opening, per area of the opening.
 
-    The side with the higher pressure is the source. The gas carries the enthalpy of the source,
-    c_p T = c_p p A/(m R).
+    Gas flows from the side with the higher pressure. It carries the enthalpy of this side, c_p T = c_p p A/(m R). Here
+    p, m and A are the pressure, mass and section of this side.
     """
     forward = left.pressure >= right.pressure
     source, sink = (left, right) if forward else (right, left)
@@ -226,8 +226,8 @@ def _assemble(
 def _store(gas: Gas, pockets: RecordArray, low: int, high: int, isentropic: bool) -> None:
     """Set the residuals and derivatives that the pockets would have if no gas flowed in or out.
 
-    `_leak` and `_exchange` then add the flows. Without flows, a pocket keeps its mass. If `isentropic` is true, the
-    pocket also keeps its entropy. If `isentropic` is false, only the wall work changes the energy of the pocket.
+    Without flows, a pocket keeps its mass. If `isentropic` is true, the pocket also keeps its entropy. If `isentropic`
+    is false, only the wall work changes the energy of the pocket. `_leak` and `_exchange` add the flows afterwards.
     """
     g = gas.exponent
     for i in range(low, high):
@@ -252,7 +252,6 @@ def _store(gas: Gas, pockets: RecordArray, low: int, high: int, isentropic: bool
 
 @kernel
 def _clear(balance: Any) -> None:
-    """Set the derivatives of a balance to 0."""
     balance.lower.by_pressure = balance.lower.by_mass = 0.0
     balance.diagonal.by_pressure = balance.diagonal.by_mass = 0.0
     balance.upper.by_pressure = balance.upper.by_mass = 0.0
@@ -265,7 +264,7 @@ def _side(pockets: RecordArray, i: int) -> Side:
 
 @kernel
 def _add(row: Any, share: float, by_pressure: float, by_mass: float) -> None:
-    """Multiply two derivatives by `share` and add the products to a row of the Jacobian."""
+    """Add `share` times two derivatives to the derivatives of a balance."""
     row.by_pressure += share * by_pressure
     row.by_mass += share * by_mass
 
@@ -294,10 +293,7 @@ def _add_leakage(balance: Any, opening: float, dt: float, passage: Passage, coun
 def _exchange(
     gas: Gas, width: float, discharge: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
 ) -> None:
-    """Add the flow through the faces to the balances.
-
-    A face lies between two pockets, or between a pocket and the ambient.
-    """
+    """Add the flow through the faces between the pockets, and between pockets and the ambient, to the balances."""
     right = ambient(gas)
     for face in range(low, high + 1):
         left = right
@@ -326,7 +322,7 @@ def _add_outflow(balance: Any, share: float, passage: Passage) -> None:
 
 @kernel
 def _add_inflow(balance: Any, share: float, passage: Passage) -> None:
-    """Update the balance of a pocket with the flow that enters the pocket through its lower face."""
+    """Add the flow that enters a pocket through its lower face to the balance of this pocket."""
     balance.residual -= share * passage.flow
     _add(balance.diagonal, -share, passage.by_right_pressure, passage.by_right_mass)
     _add(balance.lower, -share, passage.by_left_pressure, passage.by_left_mass)
@@ -363,9 +359,9 @@ def _eliminate(pockets: RecordArray, low: int, high: int) -> None:
 
 @kernel
 def _substitute(balance: Any, pressure: Any, mass: Any) -> None:
-    """Eliminate the state of the pocket below from a balance.
+    """Eliminate the pressure and the mass of the pocket below from a balance.
 
-    `pressure` and `mass` are the solved rows of the pocket below.
+    `pressure` and `mass` are the balances of the pocket below, solved for its pressure and for its mass.
     """
     p, m = balance.lower.by_pressure, balance.lower.by_mass
     balance.diagonal.by_pressure -= p * pressure.upper.by_pressure + m * mass.upper.by_pressure

@@ -6,17 +6,17 @@ from solvers.arrays import FloatArray, RecordArray, floats, records
 from solvers.compiled import kernel
 
 WALL = floats("area", "clearance", "carried")
-"""Fields of a record that holds the walls of a cell; `Wall` explains these fields."""
+"""Names of the fields of `Wall`, for records."""
 
 
 class Duct(NamedTuple):
     """A stretch of a tooth space cut into equal cells.
 
-    `start` is the distance from the end that meshes first [m]; `width` is the width of a cell [m], and `cells` is
-    the number of cells. `lag` [rad/m] is the angle per length by which the stroke begins later with increasing distance
-    from the end that meshes first. The owner is the gear to which the space belongs, and `speed` is the speed of the
-    owner [rad/s]. `wall_table` builds `table`. Row k of `table` holds the walls at the angle `first_angle` + k
-    `angle_step` [rad]. `discharge` is the discharge coefficient.
+    `start` is the distance from the end that meshes first [m]. `width` is the width of a cell [m], and `cells` is the
+    number of cells. `speed` is the speed of the gear with the tooth space [rad/s]. The stroke begins later at a larger
+    distance from the end that meshes first; `lag` is this delay as an angle per length [rad/m]. Row k of `table` holds
+    the walls at the angle `first_angle` + k `angle_step` [rad]; see `wall_table`. `discharge` is the discharge
+    coefficient.
     """
 
     start: float
@@ -103,10 +103,10 @@ def stroke_end(duct: Duct) -> float:
 
 @kernel
 def stroke_share(duct: Duct, z: float, angle: float, turn: float) -> float:
-    """Compute the share of a time step that belongs to the stroke at the position z [m].
+    """Compute the fraction of a time step that lies within the stroke at the position z [m].
 
-    A time step may contain the start or the end of the stroke. The step begins at the owner's `angle` [rad]. During the
-    step the owner turns by `turn` [rad].
+    At the start of the time step, the gear with the tooth space has the angle `angle` [rad]. During the step this gear
+    turns by `turn` [rad].
     """
     phase = angle - duct.lag * z
     inside = min(phase + turn, stroke_end(duct)) - max(phase, duct.first_angle)

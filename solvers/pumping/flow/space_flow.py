@@ -25,7 +25,7 @@ chain, because there the gas moves only between pockets.
 """
 
 EXTREMES = floats("mach", "velocity", "demand")
-"""Largest axial Mach number, largest velocity [m/s], and largest demand (`exit_demand` of `SpaceFlow`)."""
+"""Largest axial Mach number, largest velocity [m/s], and `exit_demand` of `SpaceFlow` in one stroke."""
 
 BALANCE = floats("begun", "ended", "low_end", "high_end", "walls", "idle")
 """Balance of the mass [kg] or energy [J] of all cells over their strokes.
@@ -41,12 +41,12 @@ ENDS = floats("time", "low_outflow", "high_outflow")
 
 
 class Record(NamedTuple):
-    """Arrays of records that are filled while a duct is marched through its stroke.
+    """Arrays that a march in time fills with the results of one stroke.
 
-    `field` (angles, cells) contains records of FIELD. `profile` (cells,) contains records of PROFILE. `extremes` (1,)
-    contains one record of EXTREMES. `mass` (1,) contains one record of BALANCE. `energy` (1,) contains one record with
-    the fields of BALANCE and the additional field `work`, the work on the gas by pressures above ambient pressure [J].
-    `ends` (steps,) contains records of ENDS.
+    `field` (angles, cells) contains records of FIELD, `profile` (cells,) contains records of PROFILE, and `ends`
+    (steps,) contains records of ENDS. `extremes` (1,) contains one record of EXTREMES, and `mass` (1,) contains one
+    record of BALANCE. `energy` (1,) contains one record with the fields of BALANCE and the additional field `work`.
+    `work` is the work on the gas by pressures above ambient pressure [J].
     """
 
     field: RecordArray
@@ -126,9 +126,9 @@ def include_speed(extremes: RecordArray, mach: float, velocity: float) -> None:
 
 @kernel
 def include_demand(extremes: RecordArray, mach: float) -> None:
-    """Update the largest demand of the stroke with a new demand at one end of the duct.
+    """Update the stroke's largest demand with a new demand `mach` at one end of the duct.
 
-    The demand `mach` is the Mach number that the gas would reach at this end if the gas expanded to ambient pressure.
+    The demand is the Mach number that the gas would reach at this end by an expansion to ambient pressure.
     """
     extremes[0].demand = max(extremes[0].demand, mach)
 
@@ -137,8 +137,9 @@ def include_demand(extremes: RecordArray, mach: float) -> None:
 class ExitMasses:
     """Net mass that leaves one tooth space in a stroke through each exit [kg].
 
-    `reset` is the sum of two masses: the mass that slices lose when ambient gas replaces their content between two
-    strokes, and the mass that flows to slices outside their stroke. The five masses of this class add up to 0.
+    `reset` is the sum of two masses. The first is the mass that slices lose between two strokes, when ambient gas
+    replaces the gas in these slices. The second is the mass that flows to slices outside their stroke. All five masses
+    of this class add up to 0.
     """
 
     front: float
@@ -202,7 +203,7 @@ class SpaceFlow:
 
 @dataclass(frozen=True, slots=True)
 class March:
-    """The record of a march through one stretch of the face, and the number of steps of this march."""
+    """One stretch of the face, the record of the march in time through this stretch, and the number of time steps."""
 
     stretch: Stretch
     record: Record
@@ -241,7 +242,7 @@ def space_flow(angle: FloatArray, marches: list[March], *, conserves_energy: boo
 
 
 def _error(balances: list[RecordArray]) -> float:
-    """Compute the error of conservation, relative to the content of the cells when their strokes begin."""
+    """Compute the error of conservation, divided by the content of all cells at the beginning of their strokes."""
     begun = np.concatenate([balance.begun for balance in balances]).sum()
     accounted = np.array(
         [[balance[0][name] for name in ("ended", "low_end", "high_end", "walls", "idle")] for balance in balances]

@@ -1,7 +1,7 @@
-"""Quasi-one-dimensional gas dynamics of a tooth space: ducts are marched through their strokes, step by step.
+"""Quasi-one-dimensional gas dynamics of a tooth space, computed in time steps from the start to the end of the stroke.
 
-A cell takes part in the steps while the cell is in its stroke. This model converges if the grid is refined; the pocket
-chain does not converge.
+A cell takes part in the steps while the cell is in its stroke. The results of this model converge if the grid is
+refined; the results of the pocket chain do not converge.
 """
 
 from math import ceil
@@ -61,7 +61,7 @@ def gas_dynamics(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray)
 
 
 def cell_steps(gas: Gas, ducts: list[tuple[Stretch, Duct]], angle: FloatArray) -> float:
-    """Estimate the number of cells times the number of steps of a march, from the speed of sound in gas at rest."""
+    """Estimate the number of cells times the number of steps of `march`, from the speed of sound in gas at rest."""
     return sum(part.cells * _steps(gas, part, angle) for _, part in ducts)
 
 
@@ -73,10 +73,9 @@ def _steps(gas: Gas, part: Duct, angle: FloatArray) -> float:
 def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record, order: int) -> int:
     """March from the first to the last of the `angles` [rad]; return the number of steps, or a negative number.
 
-    Steps are as long as the waves allow, but a step never passes one of the angles: the last step before an angle ends
-    at this angle. If slightly shorter steps make an additional step necessary, this additional step is very short.
-    Results therefore depend continuously on the step length. The result is -1 if the record has no room for more steps,
-    and -2 if no step length gives a physical state.
+    Steps are as long as the waves allow. The last step before one of the `angles` ends at this angle, however short
+    this step becomes. Results therefore depend continuously on the step length. The result is -1 if the record has no
+    room for more steps, and -2 if no step length gives a physical state.
     """
     angle, taken, low, high = angles[0], 0, 0, 0
     for k in range(1, angles.size):
@@ -120,7 +119,7 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
 def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, int]:
     """Find the range of cells that take part in a step.
 
-    In the step, the owner turns by `turn` [rad], starting at `angle` [rad]. Returns the first cell of the range, and
+    In the step, the gear turns by `turn` [rad], starting at `angle` [rad]. Returns the first cell of the range, and
     the cell after the last cell of the range.
 
     A cell takes part while the stroke is under way at the centre of the cell. The first and the last cell of the duct
@@ -128,10 +127,10 @@ def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, 
     the end is open. If a cell is in its stroke during only a part of the step, the leakage and the mean temperatures of
     the cell count only for this part.
 
-    If the stroke runs along the face faster than sound, cells take part a few cell widths early. In this case, physical
-    waves do not reach the border between the active and the idle cells. On a grid, however, waves spread over a few
-    cells. If these waves reached the border, they would change the state with which the next cells begin. The flow
-    could then develop in two different ways, depending on the sequence of steps.
+    If the stroke runs along the face faster than sound, cells take part a few cell widths early. In reality, no
+    wave reaches the border between the active and the idle cells. On a grid, however, waves spread over a few cells and
+    could reach the border. They would then change the state with which the next cells begin. The flow could develop in
+    two different ways, depending on the sequence of steps.
     """
     low, high, rear = 0, 0, duct.cells - 1
     early = _AHEAD * duct.lag * duct.width if duct.speed >= duct.lag * gas.sound_speed else 0.0
@@ -147,7 +146,7 @@ def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, 
 
 @kernel
 def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> float:
-    """Compute the turn of the owner [rad] in which the fastest wave crosses the fraction `COURANT` of a cell."""
+    """Compute the turn of the gear [rad] in which the fastest wave crosses the fraction `COURANT` of a cell."""
     fastest = gas.sound_speed
     for i in range(low, high):
         rho, u, p = cells.state[i].density, cells.state[i].velocity, cells.state[i].pressure
@@ -157,11 +156,7 @@ def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> fl
 
 @kernel
 def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int, new_high: int, angle: float) -> None:
-    """Set the gas in every cell that begins its stroke to the state that `_border` computes.
-
-    In the previous step, the active cells had the indices from `low` to `high` - 1. In this step, the active cells have
-    the indices from `new_low` to `new_high` - 1.
-    """
+    """Set the gas in every cell that begins its stroke to the state that `_border` computes."""
     rho, u, p = _border(gas, duct, cells, low, high)
     for i in range(new_low, new_high):
         if i < low or i >= high:
@@ -175,9 +170,9 @@ def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int,
 def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
     """Compute the state of the gas with which the next cells begin their stroke.
 
-    The state of the gas behind the moving border is extrapolated by one cell width from the states of the last two
-    active cells. From the extrapolated state, `front_face` computes the state at the border. The next cells begin with
-    the state at the border. If no cell is active yet, the next cells begin with ambient gas at rest.
+    This is the state at the moving border between active and idle cells. `front_face` computes it from the state behind
+    the border, which is extrapolated from the last two active cells. If no cell is active yet, the next cells begin
+    with ambient gas at rest.
     """
     if not low < high < duct.cells:
         return State(gas.density, 0.0, gas.pressure)
@@ -195,8 +190,7 @@ def _record_changes(duct: Duct, cells: Cells, record: Record, low: int, high: in
     """Update the balances of mass and energy if the stroke of a cell ends or begins between two steps.
 
     The content of a cell whose stroke ends is added to `ended`. The content of a cell whose stroke begins is added to
-    `begun`. In the previous step, the active cells had the indices from `low` to `high` - 1. In this step, the active
-    cells have the indices from `new_low` to `new_high` - 1.
+    `begun`.
     """
     for i in range(low, high):
         if i < new_low or i >= new_high:
@@ -212,11 +206,11 @@ def _record_changes(duct: Duct, cells: Cells, record: Record, low: int, high: in
 def _record_ends(
     duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float, taken: int
 ) -> None:
-    """Record the flow out of both ends of the row of active cells.
+    """Record the flow through both ends of the row of active cells.
 
-    Each end of the row is either an end of the duct or a border to idle cells. The flow through a border is recorded as
-    flow to idle cells. At an end of the duct, the stroke may begin or end within the time step. The flow during the
-    stroke is recorded as flow out of the duct. The flow before or after the stroke is recorded as flow to idle cells.
+    An end of the row is either an open end of the duct or a border to idle cells. The flow through a border is recorded
+    as flow to idle cells. If the stroke at an end of the duct begins or ends within the time step, only the flow during
+    the stroke is recorded as flow out of the duct. The rest is recorded as flow to idle cells.
     """
     dt = turn / duct.speed
     for end in range(2):
@@ -240,12 +234,13 @@ def _record_cells(
 
     Mean temperatures follow from the trapezoidal rule. The extremes leave out two kinds of cells:
 
-    - A cell whose stroke ends within the step. For the rest of the step, this cell is closed and collects the inflow.
-    - A cell whose stroke has just begun. This cell starts from the state of the border. The leakage of this cell
-      settles within a fraction of a step, so the implicit scheme of second order overshoots.
+    - A cell whose stroke ends within the step. For the rest of the step, this cell is closed and collects the gas
+      that still flows in.
+    - A cell whose stroke has just begun. The leakage of this cell settles within a fraction of a step, so the implicit
+      scheme of second order overshoots.
 
-    `longest` [rad] is the largest permitted turn of a step. A stroke has just begun if the owner has turned by less
-    than `_UNSETTLED` times `longest` since the stroke began.
+    A stroke has just begun if the gear has turned by less than `_UNSETTLED` times `longest` since the stroke began.
+    `longest` [rad] is the largest permitted turn of a step.
     """
     old, new, loss, dt = cells.state, cells.next_state, cells.loss, turn / duct.speed
     for i in range(low, high):
@@ -276,7 +271,7 @@ def _take_over(cells: Cells, low: int, high: int) -> None:
 def _record_field(
     gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, k: int, angle: float
 ) -> None:
-    """Record the gas in the active cells at the angle with the number k.
+    """Record the gas in the active cells at `angle` [rad], in row k of the field.
 
     Cells whose stroke is over at this angle are left out.
     """

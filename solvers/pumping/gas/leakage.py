@@ -83,9 +83,8 @@ def implicit_stage(
 
     Notes
     -----
-    Eq. P7. If a cell has no gaps, gas leaves it only with the flanks, which carry the gas out, and the cell does work
-    on its walls. For such a cell, `stiffness` [m^2] in the code is the internal energy before the stage divided by the
-    pressure after the stage.
+    Eq. P7. In a cell without gaps, only the flanks carry gas out, and the gas does work on the walls. For such a cell,
+    `stiffness` [m^2] in the code is the internal energy before the stage divided by the pressure after the stage.
     """
     g, area = gas.exponent, walls.area
     into, carried = max(-walls.transport, 0.0) * gas.density, max(walls.transport, 0.0) / area
@@ -149,9 +148,8 @@ def _is_settled(change: float, content: float, drop: float) -> bool:
     """Return whether the error of the flux is within tolerance after a Newton step.
 
     The step has changed the `content` of the cell [kg/m] by `change` [kg/m]. `drop` is the relative pressure drop.
-    Newton's method uses the linearised law of the flux, which leaves out the second derivative. The resulting relative
-    error of the flux is about f (change / content)^2 / drop, where the factor f lies between 1 and 2. This factor
-    depends on how steeply the pressure and the density of the cell fall when the cell loses gas.
+    Newton's method leaves out the second derivative of the flux. The resulting relative error of the flux is at most
+    about 2 (change / content)^2 / drop.
     """
     return 2.0 * change**2 <= _TOLERANCE * content**2 * max(drop, 0.0)
 
@@ -160,8 +158,7 @@ def _is_settled(change: float, content: float, drop: float) -> bool:
 def _outflow(gas: Gas, walls: Walls, stiffness: float, mass: float, inner: float, h: float, guess: float) -> float:
     """Compute the leakage [kg/(s m)] out of a cell whose pressure is above ambient pressure.
 
-    `inner` is the internal energy of the cell before the leakage [J/m]. The pressure after the stage is inner /
-    resistance. The resistance [m^2] is the stiffness plus a term for the enthalpy that leaks out.
+    `inner` is the internal energy of the cell before the leakage [J/m].
     """
     g, area, gap = gas.exponent, walls.area, walls.gap
     thinning = 1.0 / (1.0 + h * max(walls.transport, 0.0) / area)

@@ -87,7 +87,10 @@ def hllc(g: float, left: State, right: State) -> Conserved:
 
 @kernel
 def _star_flux(g: float, state: State, s: float, s_m: float) -> Conserved:
-    """Compute the flux of the state between the outer wave of speed s and the contact of speed s_m."""
+    """Compute the flux between an outer wave of speed `s` and the contact discontinuity of speed `s_m`.
+
+    `state` is the state outside the outer wave.
+    """
     rho, u, p = state
     outside = flux(g, 1.0, state, ram_pressure(state))
     total = p / (g - 1.0) + 0.5 * rho * u * u
@@ -148,14 +151,13 @@ def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
 def front_face(gas: Gas, speed: float, cell: State) -> State:
     """Compute the state of the gas at a border that moves at `speed` [m/s] into gas at rest.
 
-    `cell` is the state of the gas behind the border. Seen from the border, the gas ahead of the border is a head wind
-    with the speed `speed`. In the frame of the border, the border is therefore a reservoir face, and the reservoir has
-    the stagnation state of the head wind. If the border moves at the speed of sound or faster, no wave runs ahead of
-    the border. The speed of the head wind is then limited to the speed of sound. On a grid, waves spread over several
-    cells; the limit lets such waves pass the border.
+    `cell` is the state of the gas behind the border. Seen from the border, the gas ahead is a head wind. The border is
+    therefore treated as a face to a reservoir with the stagnation state of this head wind. The head wind is limited to
+    the speed of sound. Without this limit, a border that moves faster would stop the waves that the grid spreads over
+    several cells.
 
     Two simpler conditions at the border fail. If the border is always at ambient pressure, a jet follows the border. If
-    the border is alternately at ambient pressure and at rest, the border reflects waves with the pressure rho c u. This
+    the border is alternately at ambient pressure and at rest, waves are reflected with the pressure rho c u. This
     pressure is proportional to the speed u, but the correct pressure is proportional to the square of the speed.
     """
     g, head = gas.exponent, min(speed, gas.sound_speed)
@@ -177,13 +179,13 @@ def front_face(gas: Gas, speed: float, cell: State) -> State:
 
 @kernel
 def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> State:
-    """Compute the state of the gas that flows in from rest through a face.
+    """Compute the state of ambient gas at the face through which this gas flows from rest into a cell.
 
-    Where the inflow meets the gas of the cell, both gases have the same pressure and the same velocity. The inflow is
-    at most sonic. `cell_sound_speed` is the speed of sound of the cell's gas after an expansion to ambient pressure
-    [m/s]. If the temperatures of both gases differ, a contact discontinuity lies between the gases, and the invariant
-    v + 2c/(g-1) holds on the side of the cell. In the code, `ratio` is the speed of sound at the face divided by the
-    speed of sound in the ambient gas. This ratio is the larger root of a quadratic equation.
+    The inflow is at most sonic. Where the inflow meets the gas of the cell, both gases have the same pressure and the
+    same velocity, but they may have different temperatures. The `invariant` v + 2c/(g-1) holds in the gas of the cell.
+    `cell_sound_speed` is the speed of sound [m/s] of this gas after an expansion to ambient pressure. In the code,
+    `ratio` is the speed of sound at the face divided by the speed of sound in the ambient gas. This ratio is the larger
+    root of a quadratic equation.
     """
     g, stagnation = gas.exponent, gas.sound_speed
     slope, jet = 2.0 / (g - 1.0) * cell_sound_speed, 2.0 / (g - 1.0) * stagnation**2

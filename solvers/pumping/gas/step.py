@@ -41,10 +41,10 @@ the gas by pressures above ambient pressure [J/m].
 """
 
 END = floats("demand", "mach", "velocity")
-"""Values at an end of the duct in a step: demand (see `reservoir_face`), Mach number, outward velocity [m/s]."""
+"""Values at an end of the duct: demand (see `reservoir_face`), Mach number, outward velocity [m/s]."""
 
 LEAK = floats("latest", "halfway", "growth")
-"""Flux out of a cell through the gaps, from which the first guess for the next step is extrapolated.
+"""Mass flux that leaks out of a cell; the first guess for the next step is extrapolated from these values.
 
 `latest` and `halfway`: flux at the end and in the middle of the latest step [kg/(s m)]; `growth`: rate at which the
 flux grew in this step [kg/(s^2 m)].
@@ -52,19 +52,17 @@ flux grew in this step [kg/(s^2 m)].
 
 
 class Cells(NamedTuple):
-    """Arrays of a duct that the kernels of a step share.
+    """Arrays with the gas in a duct, used by all kernels of a time step.
 
-    Most arrays have one value per cell, (cells,). `face_area` and `flux` have one value per face, (cells + 1,), and
-    `ends` has one value per end of the duct, (2,). Names in capitals are types of records.
+    `face_area` and `flux` have one value per face, (cells + 1,). `ends` has one value per end of the duct, (2,). All
+    other arrays have one value per cell, (cells,). The names in brackets are types of records.
 
     `content` (CONSERVED), `state` (STATE) and `walls` (WALL) hold the values at the start of the step. `next_content`,
-    `next_state` and `next_walls` hold the values at the end of the step. `half` (STATE) is the state in the middle of
-    the step. `face_area` [m^2] is the area of the faces and `flux` (CONSERVED) is the flux through the faces, both in
-    the middle of the step. `slope` (STATE) is the change of the state over a cell.
+    `next_state` and `next_walls` hold the values at the end of the step. `half` (STATE), `face_area` [m^2] and `flux`
+    (CONSERVED) hold the values in the middle of the step. `slope` (STATE) is the change of the state over a cell.
 
     `loss` (LOSS), `ends` (END) and `leak` (LEAK) belong to the whole step. `share` is the share of the step in which
-    the stroke is under way at the centre of a cell. Outside the stroke the walls of a cell stand still, and nothing
-    leaks.
+    the stroke is under way at the centre of a cell. Outside the stroke the walls stand still, and nothing leaks.
     """
 
     content: RecordArray
@@ -120,7 +118,7 @@ def set_walls(duct: Duct, cells: Cells, low: int, high: int, angle: float, turn:
 def _put(walls: RecordArray, i: int, wall: Wall, share: float) -> None:
     """Store the walls of cell i.
 
-    The clearance is multiplied by `share`, the share of the step in which the gap is open.
+    `share` is the share of the step in which the gap is open; the clearance is multiplied by this share.
     """
     walls[i].area, walls[i].clearance, walls[i].carried = wall.area, share * wall.clearance, wall.carried
 
@@ -164,7 +162,7 @@ def step(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float, ord
 def _set_slopes(cells: Cells, low: int, high: int, order: int) -> None:
     """Compute limited slopes of the state over the cells.
 
-    The slopes of a cell are 0 if density or pressure would be nearly 0 at an edge of the cell.
+    If density or pressure would be nearly 0 at an edge of a cell, all slopes of this cell are 0.
     """
     state, slope = cells.state, cells.slope
     for i in range(low, high):
@@ -193,10 +191,10 @@ def _put_slope(slope: RecordArray, i: int, density: float, velocity: float, pres
 
 @kernel
 def _limited(side: int, back: float, ahead: float) -> float:
-    """Return the limited slope of a cell from two neighbouring differences.
+    """Return the limited slope of a cell from the differences to the two neighbouring cells.
 
-    `side` is -1 in the first active cell and 1 in the last active cell; in these cells the slope is `_end_slope`. In
-    all other cells `side` is 0, and the slope is van Leer's.
+    `side` is 0 in inner cells, which have van Leer's slope. `side` is -1 in the first and 1 in the last active cell,
+    which have the slope `_end_slope`.
     """
     if side < 0:
         return _end_slope(back, ahead)
@@ -209,9 +207,8 @@ def _limited(side: int, back: float, ahead: float) -> float:
 def _end_slope(nearest: float, next_one: float) -> float:
     """Compute the limited slope in an end cell from the two differences that are nearest to this cell.
 
-    The result is the slope, in the end cell, of the parabola through the values of the three cells at this end. But the
-    result is at most as steep as twice the nearest difference. If the signs of the parabola's slope and of the nearest
-    difference are opposite, the result is 0.
+    The result is the slope of the parabola through the values of the end cell and its two neighbours. It is limited to
+    twice the nearest difference. If its sign differs from the sign of the nearest difference, the result is 0.
     """
     slope = 1.5 * nearest - 0.5 * next_one
     if slope * nearest <= 0.0:
@@ -221,10 +218,7 @@ def _end_slope(nearest: float, next_one: float) -> float:
 
 @kernel
 def _walls(duct: Duct, now: RecordArray, after: RecordArray, i: int, fraction: float, dt: float) -> Walls:
-    """Interpolate the walls of cell i linearly between the start and the end of a step.
-
-    The result is for the instant at which the share `fraction` of the step has passed.
-    """
+    """Interpolate the walls of cell i between the start of a step (fraction 0) and its end (fraction 1)."""
     return Walls(
         now[i].area + fraction * (after[i].area - now[i].area),
         (after[i].area - now[i].area) / dt,
@@ -262,17 +256,16 @@ def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
 
 @kernel
 def _own_flux(g: float, area: float, edge: State) -> Conserved:
-    """Compute the flux through a border of a cell. `edge` is the state of this cell at the border.
+    """Compute the flux through a face of a cell from the state `edge` of this cell at the face.
 
-    The ram pressure is computed as the density times the squared velocity, and not by the function `ram_pressure`. That
-    function multiplies in another order, and so its result has other rounding errors.
+    The function `ram_pressure` is not used, because it would give other rounding errors.
     """
     return flux(g, area, edge, edge.density * edge.velocity**2)
 
 
 @kernel
 def _edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
-    """Extrapolate the state w by the slope s from the centre of cell i to an edge of this cell.
+    """Extrapolate the state w of cell i linearly to an edge of this cell; s is the change of the state over the cell.
 
     `side` is the position of the edge in cell widths from the centre, -0.5 or 0.5.
     """
@@ -285,9 +278,9 @@ def _edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
 
 @kernel
 def _safe_edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
-    """Extrapolate the state w by the slope s to an edge of cell i.
+    """Extrapolate the state w like `_edge`, but return the state of the cell if the result is not safe.
 
-    Return the state of the cell if the extrapolated density or pressure is below a tenth of the cell's value.
+    The result is not safe if its density or pressure is below a tenth of the value of the cell.
     """
     edge = _edge(w, s, i, side)
     if edge.density < 0.1 * w[i].density or edge.pressure < 0.1 * w[i].pressure:
@@ -297,7 +290,6 @@ def _safe_edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
 
 @kernel
 def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None:
-    """Compute the fluxes through all faces."""
     half, slope, fluxes, area = cells.half, cells.slope, cells.flux, cells.face_area
     for i in range(low + 1, high):
         left, right = _safe_edge(half, slope, i - 1, 0.5), _safe_edge(half, slope, i, -0.5)
@@ -316,8 +308,7 @@ def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None
 def _put_flux(gas: Gas, cells: Cells, face: int, outward: float, state: State) -> None:
     """Store the flux of a state through a face.
 
-    `outward` is -1 if the velocity of the state is positive towards the low end, else 1. A value of -1 reverses the
-    signs of the fluxes of mass and energy.
+    `outward` is -1 if the velocity of the state is positive towards the low end of the duct, else 1.
     """
     through, fluxes = flux(gas.exponent, cells.face_area[face], state, ram_pressure(state)), cells.flux
     fluxes[face].mass, fluxes[face].energy = outward * through.mass, outward * through.energy
@@ -339,9 +330,8 @@ def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
 def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
     """Compute mass, momentum and energy of the cells at the end of the step.
 
-    These values follow from the fluxes in the middle of the step, and from the exchange with the walls. The exchange is
-    computed in two implicit stages, or in a single stage if one of the two stages fails. Return False if the single
-    stage also fails.
+    The exchange with the walls is computed in two implicit stages. If one of the two fails, the exchange is computed in
+    a single stage instead. Return False if the single stage also fails.
     """
     fluxes, area, c, h = cells.flux, cells.face_area, cells.content, _DIAGONAL * dt
     loss, leak = cells.loss, cells.leak

@@ -1,4 +1,4 @@
-"""The space between two teeth in mesh.
+"""The geometry of the space between two teeth in mesh.
 
-Data pass through the modules tooth_space -> profile -> section -> stroke. `face` divides the face width.
+The modules use each other in this order: tooth_space, profile, section, stroke. `face` divides the face width.
 """

@@ -1,4 +1,8 @@
-"""Stretches of a tooth space between the grooves. Both ends of a stretch are open; a stretch is cut into slices."""
+"""Stretches of a tooth space.
+
+A stretch lies between two grooves, or between a groove and an end of the face. Both ends of a stretch are open. A
+stretch is cut into slices.
+"""
 
 from dataclasses import dataclass, replace
 

@@ -36,10 +36,9 @@ def sector(roll: float, base: float) -> float:
 
 @kernel
 def sector_to_involute(space: ToothSpace, roll: float) -> float:
-    """Compute the area [m^2] of a sector between the owner's axis and the profile in one half of the tooth space.
+    """Compute the area [m^2] between the gear's axis and the profile of its tooth space, up to a point of the involute.
 
-    The sector begins at the centre line of the space. It ends at the point of the involute with the roll length `roll`
-    [m].
+    The area begins at the centre line of the space. The point of the involute has the roll length `roll` [m].
     """
     base = space.base_radius
     return space.root.sector_area + sector(roll, base) - sector(space.root.involute_roll, base)
@@ -77,9 +76,9 @@ def _nearest_on_fillet(fillet: RackFillet, radius: float, angle: float) -> tuple
 
 @kernel
 def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[float, float]:
-    """Find the point of the space's flank nearest to (radius, angle).
+    """Find the point of the tooth space's flank nearest to the point (radius, angle).
 
-    Returns the roll length [m] of the nearest point, and the distance [m] of this point from (radius, angle).
+    Returns the roll length [m] of the nearest point, and the distance [m] between both points.
     """
     base, start = space.base_radius, space.root.involute_roll
     if radius > base:
@@ -97,11 +96,14 @@ def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[floa
 
 @kernel
 def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[float, float, float, float]:
-    """Find the point of the space's profile nearest to (radius, angle).
+    """Find the point of the tooth space's profile nearest to the point (radius, angle).
 
-    Only one half of the symmetric profile is searched. Returns the distance [m] of the nearest point from (radius,
-    angle); radius [m] and angle [rad] of the nearest point; and the area [m^2] between the axis of the space's gear and
-    the profile up to the nearest point.
+    Only one half of the symmetric profile is searched. Returns four values:
+
+    - the distance [m] between both points
+    - the radius [m] of the nearest point
+    - the angle [rad] of the nearest point
+    - the area [m^2] between the gear's axis and the profile, from the centre line of the space to the nearest point
     """
     root, base = space.root, space.base_radius
     roll, distance = _foot_on_flank(space, radius, angle)
@@ -123,9 +125,9 @@ def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[
 
 @kernel
 def foot_on_mate(space: ToothSpace, radius: float, angle: float) -> tuple[float, float]:
-    """Find the point of the mate's flank nearest to (radius, angle).
+    """Find the point of the mating tooth's flank nearest to the point (radius, angle).
 
-    Returns the roll length [m] of the nearest point, and the distance [m] of this point from (radius, angle).
+    Returns the roll length [m] of the nearest point, and the distance [m] between both points.
     """
     base = space.mate_base_radius
     foot = 0.0
@@ -144,10 +146,10 @@ def foot_on_mate(space: ToothSpace, radius: float, angle: float) -> tuple[float,
 def from_mate(
     space: ToothSpace, angle: float, mate_angle: float, mate_roll: float
 ) -> tuple[float, float, float, float]:
-    """Find the point of the space's profile that is nearest to a point of the mate's flank.
+    """Find the point of the tooth space's profile nearest to a point of the mating tooth's flank.
 
-    The point of the mate's flank has the roll length `mate_roll` [m]. Only one half of the space's symmetric profile is
-    searched. Returns the values of `nearest_on_profile`.
+    The point of the flank has the roll length `mate_roll` [m]. Only one half of the symmetric profile is searched.
+    Returns the same values as `nearest_on_profile`.
     """
     radius = np.hypot(space.mate_base_radius, mate_roll)
     mu = mate_angle - space.mate_base_half_angle + involute(mate_roll, space.mate_base_radius)
@@ -157,9 +159,9 @@ def from_mate(
 
 @kernel
 def from_own(space: ToothSpace, angle: float, mate_angle: float, roll: float) -> tuple[float, float]:
-    """Find the point of the mate's flank nearest to the point of the space's flank at the roll length `roll`.
+    """Find the point of the mating tooth's flank nearest to a point of the tooth space's flank.
 
-    Returns the values of `foot_on_mate`.
+    The point of the space's flank has the roll length `roll` [m]. Returns the same values as `foot_on_mate`.
     """
     radius = np.hypot(space.base_radius, roll)
     theta = angle - space.base_half_angle - involute(roll, space.base_radius)

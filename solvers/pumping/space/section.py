@@ -31,9 +31,10 @@ class Section(NamedTuple):
 
 @kernel
 def _area_part(space: ToothSpace, own_x: float, own_y: float, mate_x: float, mate_y: float, mate_roll: float) -> float:
-    """Compute the area [m^2] between the owner's axis and the upper boundary of a side.
+    """Compute an area [m^2] that belongs to the left or the right side of a tooth space.
 
-    The upper boundary consists of the section, the mate's flank and the mate's tip.
+    Below, the axis of the gear with the space bounds this area. Above, three lines bound this area: the side's
+    narrowest section, the flank of the mate (the other gear) and the mate's tip.
     """
     base = space.mate_base_radius
     under_flank = sector(space.mate_tip_roll, base) - sector(mate_roll, base)
@@ -45,10 +46,10 @@ def _area_part(space: ToothSpace, own_x: float, own_y: float, mate_x: float, mat
 def _close(
     space: ToothSpace, angle: float, mate_angle: float, own_radius: float, own_half_angle: float, mate_roll: float
 ) -> float:
-    """Compute the area [m^2] between the owner's axis and the upper boundary of a side; see `_area_part`.
+    """Compute the area of `_area_part` [m^2] for a section between two given points.
 
-    The side is closed by a line from a point of the owner's profile (`own_radius` [m], `own_half_angle` [rad]) to a
-    point of the mate's profile (`mate_roll` [m]).
+    The first point lies on the profile of the tooth space (`own_radius` [m], `own_half_angle` [rad]). The second point
+    lies on the flank of the other gear (`mate_roll` [m]).
     """
     mate_radius = np.hypot(space.mate_base_radius, mate_roll)
     mu = mate_angle - space.mate_base_half_angle + involute(mate_roll, space.mate_base_radius)
@@ -60,12 +61,14 @@ def _close(
 
 @kernel
 def _corner_section(space: ToothSpace, angle: float, mate_angle: float) -> tuple[float, float, float, float, float]:
-    """Find the section between a tip corner and the other gear.
+    """Find the shortest line between a tip corner of one gear and the profile of the other gear.
 
-    If the model has contact gaps, the section starts at the tip corner that is nearer to the other gear. If the model
-    has tip gaps, the section starts at the mate's tip corner. One foot of the section lies on the space, and the other
-    foot lies on the mate. Returns the clearance [m]; radius [m] and half angle [rad] of the foot on the space; the area
-    between the owner's axis and the profile up to this foot [m^2]; and the roll length of the foot on the mate [m].
+    If the model has contact gaps, the tip corner with the shorter line is used. If the model has tip gaps, the tip
+    corner of the mate is used. The mate is the gear whose tooth enters the tooth space.
+
+    Returns five numbers: the length of the line [m]; radius [m] and half angle [rad] of the end on the tooth space; the
+    area between the profile up to this end and the axis of the gear with the space [m^2]; and the roll length of the
+    end on the mate [m].
     """
     clearance, r, psi, below = from_mate(space, angle, mate_angle, space.mate_tip_roll)
     foot = space.mate_tip_roll
@@ -81,12 +84,11 @@ def _corner_section(space: ToothSpace, angle: float, mate_angle: float) -> tuple
 def _flank_section(
     space: ToothSpace, angle: float, mate_angle: float, roll: float, mate_roll: float, gap: float
 ) -> tuple[float, float, float, float, float]:
-    """Find the section of a side on the line of action; returns the same values as `_corner_section`.
+    """Find the narrowest section between two flanks on the line of action. Return the same values as `_corner_section`.
 
-    The line of action may miss the involute of one gear, gear A. The section then starts at the point where the line of
-    action meets the flank of the other gear, gear B, and ends at the nearest point of gear A. The clearance is the
-    smaller of two values: the length of this section, and the distance between the end of the missed involute and
-    gear B.
+    If the line of action misses the involute of one gear, the section starts at the flank of the other gear. The
+    section then ends at the nearest point of the gear with the missed involute. The clearance is the smaller of two
+    lengths: the length of this section, and the distance from the end of the missed involute to the other gear.
     """
     start = space.root.involute_roll
     if roll < start:
@@ -106,9 +108,8 @@ def _flank_section(
 def _carried(space: ToothSpace, roll: float, gap: float) -> float:
     """Compute the area of gas [m^2] that rolling flanks have carried through a section of width `gap` [m].
 
-    The area is positive if the gas moves towards growing roll lengths. The velocity of the gas is the mean of the
-    rolling velocities of both flanks. Each rolling velocity is integrated over time, from the instant at which this
-    velocity is 0.
+    The area is positive if the gas moves towards growing roll lengths. The gas moves with the mean of the rolling
+    velocities of both flanks. The area counts from the instants at which these rolling velocities are 0.
     """
     facing = space.line_of_action - gap
     roll = min(max(roll, facing - space.mate_tip_roll), space.tip_roll)
@@ -118,15 +119,18 @@ def _carried(space: ToothSpace, roll: float, gap: float) -> float:
 
 @kernel
 def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tuple[float, float, float]:
-    """Compute area [m^2] and clearance [m] of a side, and the area [m^2] of gas carried through the side's section.
+    """Compute the values of the left or the right side of a tooth space.
 
-    Flanks that face each other close the space on the line of action, where the distance between the flanks is `gap`
-    [m]. If `gap` is 0, the clearance is 0 wherever the line of action meets both involutes. Both involutes then start
+    Returns the area [m^2], the clearance [m], and the area [m^2] of the gas that the flanks have carried through the
+    narrowest section of this side.
+
+    If flanks face each other, the narrowest section lies on the line of action. The distance between the flanks is then
+    `gap` [m]. If `gap` is 0, the clearance is 0 wherever the line of action meets both involutes. Both involutes start
     at their base circles, even if a gear is undercut. The calculation of the path of contact makes the same assumption.
 
-    If the gap is wide, a tip corner may be closer to the other gear (for example to the root fillet) than the flanks
-    are to each other. The clearance is then the distance between the tip corner and the other gear, but the section
-    that bounds the area stays on the line of action.
+    If the gap is wide, a tip corner may be closer to the other gear than the flanks are to each other. The clearance is
+    then the distance between this tip corner and the other gear. The area is still bounded by the section on the line
+    of action.
     """
     roll = space.pitch_roll + space.base_radius * (angle - space.pitch_half_angle)
     mate_roll = space.line_of_action - roll - gap

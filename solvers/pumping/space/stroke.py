@@ -26,9 +26,8 @@ class StrokeTable:
     `area` is in [m^2]; `clearance_left` and `clearance_right` are in [m]. `carried` is the area of the gas that the
     flanks have carried out of the space through its narrowest sections since the stroke began [m^2].
 
-    The table holds this accumulated area, not its rate. If a section passes from a tip corner to the flanks between two
-    positions, the rate jumps and the slope of `area` changes between these positions. An interpolated rate would then
-    be inconsistent with the interpolated `area`. The interpolated `carried` is consistent with the interpolated `area`.
+    The table holds the accumulated area and not its rate. The rate can jump between two positions, and an interpolated
+    rate would then be inconsistent with the interpolated `area`.
     """
 
     limits: StrokeLimits
@@ -55,8 +54,8 @@ class StrokeTable:
     def jump(self) -> tuple[float, float]:
         """Largest jump of the logarithm of the area between two positions (0 if none), and the angle of the jump [rad].
 
-        If the model has tip gaps, the point of the space that is nearest to a tip corner of the mating tooth can jump
-        from the flank to the root. The area then jumps too. If the model has contact gaps, the area has no jump.
+        The area can jump only if the model has tip gaps. The reason for a jump is that the point of the space nearest
+        to a tip corner of the mating tooth changes from the flank to the root.
         """
         change = np.abs(np.diff(np.log(self.area)))
         beside = np.maximum(np.append(change[1:], change[-2]), np.append(change[1], change[:-1]))

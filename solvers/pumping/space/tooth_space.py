@@ -1,9 +1,9 @@
 """A tooth space of one gear, and the tooth of the mate that passes through this space, in the transverse plane.
 
-Frame: the owner is the gear to which the space belongs. The owner turns about (0, 0), and the mate turns about (0, a).
-Angles of the owner are measured from +y and angles of the mate from -y, both positive towards +x, the direction of
-motion. At angle 0 the centre of the space is on the line of centres. The right side of the space is ahead in the
-direction of motion. If the owner drives, its driving flank is on the left side of the space.
+The owner is the gear to which the space belongs, and the mate is the mating gear. The owner turns about (0, 0), and the
+mate turns about (0, a). Angles of the owner are measured from +y and angles of the mate from -y, both positive towards
++x, the direction of motion. At angle 0 the centre of the space is on the line of centres. The right side of the space
+is ahead in the direction of motion. If the owner drives, its driving flank is on the left side of the space.
 """
 
 from dataclasses import dataclass
@@ -17,7 +17,9 @@ from solvers.pumping.inputs import Gap
 
 
 class ToothSpace(NamedTuple):
-    """Shape and motion of a space and of the mate's tooth; lengths [m], angles [rad].
+    """Shape and motion of a tooth space and of the mating gear's tooth; lengths [m], angles [rad].
+
+    The owner is the gear to which the space belongs, and the mate is the mating gear.
 
     A flank is given by its base radius, its half angle at the base circle and its roll length at the tip. The flanks
     are in contact between the roll lengths `first_contact` and `last_contact` of the owner. `ratio` is the rotation of
@@ -51,9 +53,10 @@ class ToothSpace(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class StrokeLimits:
-    """Angles of the owner [rad] that limit the stroke.
+    """Angles [rad] that limit the stroke of a tooth space; they are angles of the gear to which the space belongs.
 
-    The mate's tooth is in the space from `start` to `end`, and in contact from `contact_start` to `contact_end`.
+    The mating gear's tooth is in the space from `start` to `end`. It is in contact from `contact_start` to
+    `contact_end`.
     """
 
     start: float
@@ -94,15 +97,15 @@ def normal_backlash(pair: GearPair, extra: float) -> float:
 
 
 def _thinning(pair: GearPair, normal_backlash: float) -> float:
-    """Compute the reduction of the thickness of the mate's tooth on the mate's working circle [m]."""
+    """Return by how much the mating gear's tooth is thinner on its working circle [m]."""
     return normal_backlash / (cos(pair.base_helix_angle) * cos(pair.working_pressure_angle))
 
 
 def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: bool) -> ToothSpace:
-    """Describe a tooth space of the pinion or of the wheel, and the mate's tooth that passes through this space.
+    """Describe a tooth space of the pinion or of the wheel, and the mating gear's tooth in this space.
 
-    `extra_backlash` [m] is the normal backlash due to a thinner tooth of the mate. Raises InvalidInput `pointed_tooth`
-    if the thinner tooth is pointed. Raises the errors of `path_of_contact`.
+    `extra_backlash` [m] is the normal backlash due to thinner teeth of the mating gear. Raises InvalidInput
+    `pointed_tooth` if these teeth are pointed. Raises the errors of `path_of_contact`.
     """
     path, whole = path_of_contact(pair), pair.line_of_action
     first, last = (path.start, path.end) if of_pinion else (whole - path.end, whole - path.start)
@@ -146,7 +149,7 @@ def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: b
 
 
 def stroke_limits(space: ToothSpace) -> StrokeLimits:
-    """Compute the angles at which the mate's tooth enters and leaves the space and at which contact begins and ends.
+    """Compute the angles between which the mating gear's tooth is in a tooth space, and in contact.
 
     Parameters
     ----------
@@ -156,8 +159,8 @@ def stroke_limits(space: ToothSpace) -> StrokeLimits:
     Returns
     -------
     StrokeLimits
-        Angles of the owner [rad]. At `start` the first tip corner of the mate's tooth crosses the owner's tip circle;
-        at `end` the last tip corner crosses this circle.
+        Angles of the gear to which the space belongs [rad]. At `start` the first tip corner of the mate's tooth crosses
+        this gear's tip circle; at `end` the last tip corner crosses this circle.
 
     Notes
     -----

@@ -39,7 +39,7 @@ class StandardFilms:
 def characteristic_points(path: PathOfContact) -> dict[PointName, float]:
     """Return the distances [m] from A of the points A, AB, B, C, D, DE and E of the path.
 
-    The points AB, B, D and DE are only returned if the transverse contact ratio is from 1 to 2.
+    If the transverse contact ratio is not from 1 to 2, only A, C and E are returned.
     """
     length, pitch = path.length, path.plane.base_pitch
     at_pitch = path.pitch_point - path.start

@@ -40,13 +40,14 @@ ContactFunction = Callable[[ContactPoints], FloatArray]
 
 @dataclass(frozen=True, slots=True)
 class FlashMap:
-    """Blok's flash temperature `flash` [K] over a grid of the flank; NaN at points without a finite flash temperature.
+    """Blok's flash temperature over a grid of the flank.
 
-    The grid has the coordinates x (n,) along the path and y (m,) along the face [m]. Values over the grid have the
-    shape (n, m); a row contains the points with the same x. `load` is the line load [N/m]. `heaviest` contains one
-    contact for every row: the contact with the largest load in this row. `mapped` is True for the rows that the flank's
-    maps contain. At every x at which the load jumps, two more rows are added: one just before and one just behind the
-    jump. For these rows `mapped` is False.
+    The grid has the coordinates x (n,) along the path and y (m,) along the face [m]. The line load `load` [N/m] and the
+    flash temperature `flash` [K] have the shape (n, m). `flash` is NaN at points without a finite flash temperature.
+    `heaviest` contains, for every x, the contact with the largest load.
+
+    At every x at which the load jumps, the grid has two additional rows: one just before and one just behind the jump.
+    The flank's maps do not contain these rows, so `mapped` is False for them.
     """
 
     x: FloatArray
@@ -75,10 +76,9 @@ def contacts_under_load(
 def map_flash(given: LoadDistributionInputs, distribution: LoadDistribution) -> FlashMap:
     """Compute Blok's flash temperature at the points of the flank's maps, and on both sides of every load jump.
 
-    Blok's formula is evaluated only once per row, for the contact with the largest load. In a row, the contacts differ
-    only in their load, and the flash temperature is proportional to the load to the power 3/4. (The flash temperature
-    is proportional to the load divided by the square root of the half-width, and the half-width is proportional to the
-    square root of the load.)
+    Blok's formula is evaluated only once for every position along the path, with the largest load over the face. At the
+    other points of the face, the flash temperature follows from the load: it is proportional to the load to the power
+    3/4.
     """
     plane, flank = distribution.path_of_contact.plane, distribution.flank
     x, y = flank.profile_fraction * plane.path_length, flank.face_fraction * plane.face_width
@@ -226,18 +226,17 @@ def formula_film(inputs: ScuffingInputs) -> ContactFunction:
 def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
     """Return the highest of `peak`, the points of the feature line, and the points that `_or_beside` searches.
 
-    The feature line is the diagonal of the flank from y = 0 at A to the other end of the face at E.
+    The feature line is the diagonal of the flank that runs from A at y = 0 to E at the other end of the face.
     """
     along_feature_line = _peak_along(distribution, function, mirrored=False)
     return _or_beside(distribution, max(peak, along_feature_line, key=_height), function)
 
 
 def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return the highest of `peak`, the points of the profile line through `peak`, and the points of a diagonal.
+    """Return the highest of `peak`, the points of the profile line through `peak` and, for spur pairs, a diagonal.
 
-    The diagonal is searched for spur pairs only. Of the two diagonals of the flank, this function searches the diagonal
-    that is not the feature line. Other functions search the feature line. In the mirror image of a spur pair, the two
-    diagonals are interchanged. Because both are searched, the pair and its mirror image have the same largest value.
+    The diagonal is the mirror image of the feature line. With this diagonal, a spur pair and the mirror image of this
+    pair have the same largest value.
     """
     peak = max(peak, _peak_at_kinks(distribution, function, peak), key=_height)
     if distribution.path_of_contact.plane.tan_base_helix > 0.0:
@@ -248,10 +247,8 @@ def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFuncti
 def _peak_at_kinks(distribution: LoadDistribution, function: FlankFunction, peak: Peak) -> Peak:
     """Find the largest value on the profile line through `peak`, at the roll positions of the load balance.
 
-    Where another pair of teeth begins to carry load, the load has a sharp maximum. This maximum lies at a roll position
-    of the load balance, because the approach of the flanks is linear between roll positions. The search over the grid
-    can miss this maximum, because roll positions may lie closer together than the points of the grid. This function
-    therefore searches, for every roll position, the points at which the contact lines cross the profile line.
+    Where another pair of teeth begins to carry load, the load has a sharp maximum, always at a roll position. A search
+    over the grid can miss this maximum, because the roll positions may be closer together than the points of the grid.
     """
     plane, rolls = distribution.path_of_contact.plane, distribution.balance.rolls
     # At the other roll positions the load of a spur gear jumps; the map contains both sides of these jumps.
@@ -278,11 +275,11 @@ def _height(peak: Peak) -> float:
 
 
 def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) -> Peak:
-    """Find the largest value of a function over the flank, starting from the function's `values` (n, m) on the grid.
+    """Find the largest value of a function over the flank.
 
-    The largest value of every row is taken first; these values are a function of x with several local maxima. Around
-    the highest local maxima, `function` is evaluated on finer and finer grids. Every finer grid contains the point with
-    the largest value of the previous grid, so that this value is not lost.
+    `values` (n, m) are the values of the function on the grid. The search takes the largest value over the face at
+    every x. Where these values have their highest peaks along the path, the function is evaluated on finer and finer
+    grids.
     """
     across = np.argmax(values, axis=1)
     highest = np.array(tops(values[np.arange(grid.x.size), across])[-TOPS:])
@@ -298,11 +295,10 @@ def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) ->
 
 
 def _around(places: FloatArray, top: IntArray, reach: int) -> FloatArray:
-    """Return a finer row of equidistant places for every row of `places`.
+    """Return new, closer places around one place of every row of `places`.
 
-    `top` contains, for every row, the index of one place, which is the centre of the finer row. The finer row extends
-    over `reach` steps of the old row on both sides of the centre. In the finer row, the place that is nearest to the
-    centre is replaced by the centre.
+    `top` contains the index of this central place for every row. The new places extend over `reach` steps of the old
+    row to both sides, but not beyond the old row. The central place is always one of the new places.
     """
     row, last = np.arange(top.size), places.shape[1] - 1
     centre = places[row, top]

@@ -28,13 +28,12 @@ CURVES = tuple(item.name for item in fields(ThermalPath) if item.name != "status
 def thermal_paths(
     inputs: ScuffingInputs, lines: Sequence[ContactPoints]
 ) -> tuple[tuple[ThermalPath, ...], tuple[Notice, ...]]:
-    """Solve the thermal EHL contact along lines, at the points at which the flanks are in contact.
+    """Solve the thermal EHL contact along lines on the flank, at the points at which the flanks are in contact.
 
-    The solution of a point starts from the solutions of the preceding points on the line. The oil enters the contact at
-    the bulk temperature. If a heat balance gives pinion and wheel different bulk temperatures, each surface has the
-    bulk temperature of its gear. A point outside the range of the solver gets the status "refused". A point without
-    convergence gets the status "no_solution". The other points are solved nevertheless. Every warning is returned once
-    for all lines, with the number of points to which the warning applies.
+    The oil enters the contact at the bulk temperature. If a heat balance gives pinion and wheel different bulk
+    temperatures, each surface has the bulk temperature of its gear. A point outside the range of the solver gets the
+    status "refused", and a point without convergence gets the status "no_solution". Each warning is returned once, with
+    the number of points to which it applies.
 
     Raises
     ------
@@ -60,11 +59,11 @@ def thermal_paths(
 def _solve_line(
     points: ContactPoints, contacts: dict[int, ehl.LineContactInputs], refusals: dict[int, InvalidInput]
 ) -> tuple[ThermalPath, list[ehl.LineContactResult]]:
-    """Solve the points of one line.
+    """Solve the points of one line on the flank.
 
-    If the solver refuses a point because its load is too light, the point is solved under the lightest load that the
-    solver accepts. This solution gives bounds for flash temperature and film. The function returns the `ThermalPath` of
-    the line, and the results of those points that were solved under their own load.
+    If the load at a point is too light for the solver, the point is solved under the lightest load that the solver
+    accepts; this solution gives bounds for flash temperature and film. Return the `ThermalPath` of the line, and the
+    results of all points that were solved under their own load.
     """
     light = {point: ehl.lightest(contacts[point]) for point, why in refusals.items() if why.code == "load_range"}
     solvable = {
@@ -119,7 +118,7 @@ def _refusal(contact: ehl.LineContactInputs) -> InvalidInput | None:
 
 
 def _values(result: ehl.LineContactResult) -> dict[str, float | None]:
-    """Return the values of a solved point; a key is the name of a curve in `ThermalPath`."""
+    """Return the values of a solved point, by the names of the curves in `ThermalPath`."""
     assert result.temperature is not None
     assert result.pressure is not None
     assert result.friction is not None
@@ -137,7 +136,7 @@ def _values(result: ehl.LineContactResult) -> dict[str, float | None]:
 def _bounds(result: ehl.LineContactResult) -> dict[str, float | None]:
     """Return bounds of flash temperature and film for a point whose load is too light for the solver.
 
-    `result` is the solution of the point under the lightest load that the solver accepts.
+    `result` is the solution at this point under the lightest load that the solver accepts.
     """
     assert result.temperature is not None
     flash = max(result.temperature.surface_1_flash, result.temperature.surface_2_flash)
@@ -161,5 +160,5 @@ def _notices(results: Sequence[ehl.LineContactResult], refusals: Sequence[Invali
 
 
 def _field(of_contact: str | None) -> str | None:
-    """Return the name of the scuffing input that determines the input `of_contact` of the line contact."""
+    """Convert the name of an input of the line contact into the name of the scuffing input from which it follows."""
     return None if of_contact is None else FIELDS.get(of_contact, of_contact)

@@ -1,8 +1,8 @@
 """Largest flash temperature and thinnest film of the lines and of the flank, and warnings about missing values.
 
-The two values by thermal EHL are stated only if every unsolved point meets two conditions: the point cannot be hotter
-than the hottest solved point, and the film at the point cannot be thinner than the thinnest solved film. At some
-unsolved points, bounds for flash temperature and film are known. The two conditions are checked with these bounds.
+An unsolved point might be hotter, or might have a thinner film, than all solved points. If there is such a point, the
+two values by thermal EHL are not stated. At some unsolved points, bounds of flash temperature and film are known. These
+bounds may show that the point cannot be the hottest point and cannot have the thinnest film.
 """
 
 from collections.abc import Sequence
@@ -31,8 +31,8 @@ class CheckedLine(NamedTuple):
 def unknown_points(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) -> int:
     """Count the unsolved points that may be hotter, or may have a thinner film, than every solved point.
 
-    `bulks` contains one array for every path: the bulk temperatures [K] at the points of the path. Such an array has
-    either one row for both gears, or two rows for pinion and wheel.
+    `bulks` has one array per path, with the bulk temperatures [K] at the points of the path. The array has either one
+    row for both gears, or two rows for pinion and wheel.
     """
     status = np.concatenate([path.status for path in paths])
     film, film_bound, flank, flash_bound = (
@@ -156,10 +156,10 @@ def without_thermal(flash: Flash, film: Film) -> tuple[Flash, Film]:
 def _extreme(
     lines: Sequence[CheckedLine], curves: Sequence[FloatArray], *, largest: bool
 ) -> tuple[float, float, float] | None:
-    """Return the largest value of all lines, or the smallest if `largest` is False, and the place of this value.
+    """Return the largest value of all lines and its place, or the smallest value and its place if `largest` is False.
 
-    The place is stated by the fraction of the path and by the distance [m] from the end of the face that meshes first.
-    The result is None if all values are NaN.
+    The place has two coordinates: the fraction of the path, and the distance [m] from the end of the face that meshes
+    first. The result is None if all values are NaN.
     """
     values = np.concatenate(curves)
     if not _any_number(values):
@@ -171,9 +171,9 @@ def _extreme(
 
 
 def _place_on(path: ScuffingPath, values: FloatArray, *, largest: bool) -> float | None:
-    """Return the position psi of the largest value along a path; None if all values are NaN.
+    """Return the fraction psi of the path at which the values are largest; None if all values are NaN.
 
-    The position is a fraction of the path. If `largest` is False, the position of the smallest value is returned.
+    If `largest` is False, return the fraction at which the values are smallest.
     """
     if not _any_number(values):
         return None
@@ -202,10 +202,10 @@ def path_notices(
     safety: Safety | None,
     unknown: int,
 ) -> tuple[Notice, ...]:
-    """List warnings about points without a film, about unsolved points, and about a meaningless safety factor.
+    """List warnings about points without a film, about unsolved points, and about a safety factor without meaning.
 
-    `unknown` is the number of unsolved points that may be the hottest, or may have the thinnest film. If the feature
-    line alone would give another risk class than the whole flank, a note says so.
+    `unknown` is the number of unsolved points that may be the hottest, or may have the thinnest film. A note states if
+    the risk class on the feature line differs from the risk class on the whole flank.
     """
     notices = []
     status = [outcome for path in paths for outcome in path.status]
