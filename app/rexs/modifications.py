@@ -60,7 +60,7 @@ class Modifications:
         speed = stage.flow.speed.get(stage.shafts[place].id)
         if not speed or stage.driver is None:
             return None
-        return "right" if (speed > 0.0) == (place == 0) else "left"
+        return "right" if (speed > 0.0) == (stage.order[place] == stage.driver) else "left"
 
     def _crowning(self, kind: str, field: str, ends: tuple[str, str]) -> None:
         """Fill in the crowning, which is the sum of the crownings of both gears.

@@ -56,6 +56,14 @@ class Flow:
                 return place if torque * speed < 0.0 else 1 - place
         return None
 
+    def loaded_side(self, pair: Pair) -> bool | None:
+        """Return True if the right flank of the first gear of the pair carries the load, and False for its left flank.
+
+        Return None if this flank is not known.
+        """
+        driver, speed = self.driver(pair), self.speed.get(pair.shafts[0].id)
+        return None if driver is None or not speed else (speed > 0.0) == (driver == 0)
+
 
 class Train:
     """The shafts of a unit, and the meshes between the shafts. Shafts that turn as one shaft form a group.

@@ -499,10 +499,8 @@ class StageDraft(Draft):
         stated = sum(limits) / len(limits)
         own = self._backlash_of_centre_distance()
         if own is None or stated < own - SAME:
-            message = (
-                f"the stated backlash of {stated:.4g} mm is smaller than the backlash that results from the centre "
-                "distance; no further backlash is added"
-            )
+            reason = "cannot be computed" if own is None else f"is larger than the stated backlash of {stated:.4g} mm"
+            message = f"the backlash that results from the centre distance {reason}; no further backlash is added"
             self.reading.find("backlash", self.stage, name, message)
             own = stated
         self.put(path, max(stated - own, 0.0), self.stage, name)

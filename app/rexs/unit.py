@@ -185,6 +185,12 @@ def _cases(stage: StageDraft, pair: Pair, flows: list[Flow]) -> list[_Case]:
         case = flow.reading.case
         if case is None:
             continue
+        if {flow.loaded_side(pair), stage.flow.loaded_side(pair)} == {True, False}:
+            message = (
+                f"in the load case {case.name[:40]}, torque or speed has another direction than in the request, so the "
+                "other flanks carry the load; the case is calculated with the flanks and modifications of the request"
+            )
+            flow.reading.find("other_flanks", pair.stage, None, message)
         changes: dict[str, Any] = stage.load(flow)
         own = _draft_of(pair, flow, stage.order[0]) if case.attributes.keys() - load_sources else stage
         for path, value in own.fields.items():

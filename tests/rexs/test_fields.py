@@ -1,5 +1,6 @@
 """Requests take every value of a file for which they have a field; the answer lists the values that are not used."""
 
+import re
 from fnmatch import fnmatch
 from math import acos, asin, atan, cos, degrees, pi, radians, sin, sqrt, tan
 from pathlib import Path
@@ -642,6 +643,20 @@ def test_shafts_that_are_not_at_the_centre_distance_are_found() -> None:
 def in_cases(unit: Unit, *cases: dict[int, dict[str, Given]]) -> Unit:
     unit.cases = list(cases)
     return unit
+
+
+def test_a_load_case_on_the_other_flanks_is_told() -> None:
+    unit = turbo_unit()
+    load, shaft = first(unit, "external_load"), first(unit, "shaft")
+    in_cases(
+        unit,
+        {load: {"power": (-12000.0, "kW")}},
+        {shaft: {"rotational_speed": (-10000.0, "1 / min")}},
+        {load: {"power": (9000.0, "kW")}},
+        {load: {"power": (-12000.0, "kW")}, shaft: {"rotational_speed": (-10000.0, "1 / min")}},
+    )
+    told = [each["message"] for each in answer(unit)["findings"] if each["code"] == "other_flanks"]
+    assert [re.findall(r"load case (\d+)", message) for message in told] == [["1"], ["2"]]
 
 
 def test_power_in_a_load_case_counts_before_the_torque_of_the_model() -> None:

@@ -218,7 +218,7 @@ def path_notices(
                 "unsolved_points",
                 f"{status.count('no_solution')} of {len(status)} points have no solution and {status.count('refused')} "
                 f"are outside the range of the model. {unknown} of these points could have the highest flash "
-                "temperature or the thinnest film, so the highest temperature, the thinnest film and the safety are not stated",
+                "temperature or the thinnest film, so these extremes and the safety are not stated",
                 rank="invalid",
             )
         )
