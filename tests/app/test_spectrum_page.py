@@ -216,7 +216,7 @@ def test_a_probability_that_nobody_knows_is_no_number() -> None:
     (limit,) = lines[-1]["limits"]
     assert 0.0 < limit["probability"] < 1e-9
     assert "robability of being above the limit below 0.001 %: low risk" in page
-    assert "The probability is below 0.001 % in every case" in page
+    assert "The probability of violating the limit is below 0.001 % for the whole spectrum" in page
     assert 'id="figure-probability"' not in page
 
 

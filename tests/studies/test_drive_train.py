@@ -115,7 +115,7 @@ def test_corners_without_answer_are_told_and_left_out() -> None:
     assert extremes["min"]["value"] == points[0]["out"][0]
     (warning,) = end["warnings"]
     assert warning["code"] == "no_convergence_of_corner"
-    assert warning["message"].startswith("3 corners")
+    assert warning["message"].startswith("3 combinations")
     assert header["total"] == 4
 
 
