@@ -145,7 +145,8 @@ def deciding(limited: Limited) -> Figure:
     rows = [Row(case.name, 100.0 * case.decides) for case in limited.cases if case.decides is not None]
     if not rows:
         raise NoFigure(
-            "no_solution", "every machine has at least one case without a solution, so there is nothing to draw"
+            "no_solution",
+            "every computed machine has at least one load case without a solution, so there is nothing to draw",
         )
     panels = [Panel(x=Axis("machines whose worst case it is", "%"), y=Axis("case"), rows=rows)]
     most = max(rows, key=lambda row: row.value)

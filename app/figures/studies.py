@@ -306,8 +306,7 @@ def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
     """Draw a row for each uncertain input, with a dot for each value of the input.
 
     A corner is a combination of values of all uncertain inputs. The dot for a value of an input shows the worst output
-    over all corners with this value. In every row, a red dot marks the worst output over all corners, which is also the
-    `value` of the row. `nominal` is the output of the case as described.
+    of all corners with this value. The worst of these dots is red. `nominal` is the output of the case as described.
     """
     levels = []
     if nominal is not None:

@@ -91,8 +91,8 @@ class Documented(BaseModel):
         the solver's result (first dataclass) and from members of this result (other dataclasses). If such a member is
         None, the fields that are read from it are null.
 
-        A model with `stands`, without `only` and without `without` represents its first dataclass: other models then
-        use this model wherever a field has this dataclass as its type.
+        If `stands` is true and neither `only` nor `without` is given, the model represents its first dataclass: other
+        models use this model wherever a field has this dataclass as its type.
 
         Raises TypeError if two models represent the same dataclass, or if `only` or the class attribute `views` names a
         field that the dataclasses do not declare.
@@ -124,8 +124,8 @@ class Documented(BaseModel):
         if stands and cls._stands and records and not only and not without:
             if (other := _MODELS.get((cls._declares, records[0]), cls)) is not cls:
                 raise TypeError(
-                    f"{other.__name__} and {cls.__name__} both describe {records[0].__name__}; only one of them may be "
-                    "the standard model, so declare the other with stands=False"
+                    f"{other.__name__} and {cls.__name__} both describe {records[0].__name__}; declare one of them "
+                    "with stands=False, so that the other is the standard model"
                 )
             _MODELS[cls._declares, records[0]] = cls
 

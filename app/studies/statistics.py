@@ -127,8 +127,8 @@ def _chances(chances: FloatArray, limit: Limit) -> Mean:
     """Return the mean of the draws' probabilities `[replicate, draw]`, with a confidence interval between 0 and 1.
 
     The interval usually follows from the scatter of the replicates. If the limit is fixed, the probability of a draw is
-    1 beyond the limit and 0 within the limit. The interval of Clopper and Pearson for a count is then used instead if
-    one of these conditions is met:
+    1 beyond the limit and 0 within the limit. For a fixed limit, the interval is that of Clopper and Pearson for a
+    count if one of these conditions is met:
 
     - The number of draws beyond the limit is smaller than the number of replicates.
     - The number of draws within the limit is smaller than the number of replicates.

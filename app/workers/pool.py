@@ -37,7 +37,7 @@ Outcome = asyncio.Future[Any]
 
 @dataclass(eq=False, slots=True)
 class Job:
-    """A call of an owner. `call` is the pickled function with its arguments."""
+    """A call that a client or a study (`owner`) has queued. `call` is the pickled function with its arguments."""
 
     owner: Hashable
     call: bytes

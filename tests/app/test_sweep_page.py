@@ -254,7 +254,7 @@ def test_a_map_over_even_ratios_puts_its_points_where_the_axes_have_them() -> No
         ({"x": "operation.torque_n_m", "y": "operation.torque_n_m"}, "y", "varied already"),
         ({"x": "operation.torque_n_m", "show": "axial_thrust"}, "show", "is a section"),
         ({"x": "operation.torque_n_m", "show": "lubrication.regime.name"}, "show", "is not a number"),
-        ({"x": "operation.torque_n_m", "best": "largest"}, "best", "least or greatest"),
+        ({"x": "operation.torque_n_m", "best": "largest"}, "best", "'least' or 'greatest'"),
         ({"y": "operation.torque_n_m"}, "x", "choose the first field to vary before the second field"),
     ],
 )

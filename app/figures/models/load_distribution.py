@@ -243,7 +243,7 @@ def load_sharing(inputs: LoadDistributionInputs, result: LoadDistribution) -> Fi
 def pair_share(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Draw, over the roll position, the share of the force that each line of contact carries."""
     if result.load.pair_share is None:
-        raise NoFigure("no_load", "Without load no pair of teeth carries a share of it", "load")
+        raise NoFigure("no_load", "Without load there is no load sharing to draw", "load")
     roll, lines = result.transmission_error.curves.roll_position, list[Line]()
     for share in result.load.pair_share:
         if share.any():

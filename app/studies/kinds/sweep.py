@@ -425,7 +425,7 @@ class SweepPage(StudyPage):
         """
         best = self.views.get("best", "greatest" if self.output.view.greatest_is_best else "least")
         if best not in {"least", "greatest"}:
-            raise Unprocessable("literal_error", "best must be either least or greatest", "best")
+            raise Unprocessable("literal_error", "the field 'best' must be either 'least' or 'greatest'", "best")
         return best == "greatest"
 
     def body(self) -> dict[str, Any]:

@@ -654,7 +654,7 @@ def _layers(psi: Numbers) -> Numbers:
 def _edges(psi: Numbers) -> Numbers:
     """Return the stream function (n, k + 1) half way between every column and the next, at the edges of the cells.
 
-    The last column has no next column. Its row contains the stream function in the column itself.
+    After the last column there is no next column; the last row contains the stream function of the last column.
     """
     layers = _layers(psi)
     return np.asarray(0.5 * (layers + np.concatenate([layers[1:], layers[-1:]])))

@@ -234,8 +234,8 @@ def _record_cells(
 
     Mean temperatures follow from the trapezoidal rule. The extremes leave out two kinds of cells:
 
-    - A cell whose stroke ends within the step. For the rest of the step, this cell is closed and collects the gas
-      that still flows in.
+    - A cell whose stroke ends within the step. For the rest of the step, gas flows into this cell but no longer out
+      of it.
     - A cell whose stroke has just begun. The leakage of this cell settles within a fraction of a step, so the implicit
       scheme of second order overshoots.
 

@@ -33,8 +33,8 @@ class Section(NamedTuple):
 def _area_part(space: ToothSpace, own_x: float, own_y: float, mate_x: float, mate_y: float, mate_roll: float) -> float:
     """Compute an area [m^2] that belongs to the left or the right side of a tooth space.
 
-    Below, the axis of the gear with the space bounds this area. Above, three lines bound this area: the side's
-    narrowest section, the flank of the mate (the other gear) and the mate's tip.
+    The lower end of this area is the axis of the gear to which the tooth space belongs. The upper end consists of
+    three lines: the narrowest section of this side, the flank of the mating gear, and the tip of the mating gear.
     """
     base = space.mate_base_radius
     under_flank = sector(space.mate_tip_roll, base) - sector(mate_roll, base)
