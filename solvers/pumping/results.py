@@ -102,7 +102,8 @@ class Resolution:
     The resolution is the number of slices in gas dynamics, of steps in the pocket chain, and of positions in the
     incompressible model. Uncertainties of pressures are relative to the gauge pressure. A jump of the area of a tooth
     space makes the pressure jump. All uncertainties are at least as large as this relative jump of the pressure.
-    `temperature_rise` is None if the flow model gives no temperatures. `MassFlow` contains the uncertainties of the net flows.
+    `temperature_rise` is None if the flow model gives no temperatures. `MassFlow` contains the uncertainties of the net
+    flows.
     """
 
     peak_pressure: float = quantity("uncertainty of the peak pressure", text="of the largest gauge pressure")
