@@ -81,7 +81,7 @@ def model_notices(path: PathOfContact, model: Model) -> list[Notice]:
         notices.append(
             Notice(
                 "calibrated_stiffness",
-                "the parabolic tooth stiffness is not derived; it is fitted to the maximum loads of Xue, Zhang and Wang",
+                "the parabolic tooth stiffness is not derived; it is fitted to the maximum loads of Xue and others",
                 "tooth_stiffness",
                 rank="note",
             )
