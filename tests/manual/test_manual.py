@@ -7,7 +7,8 @@ from pathlib import Path
 import httpx
 import pytest
 
-from app.calculations import CALCULATIONS, Calculation
+from app.calculations import BY_PATH, CALCULATIONS, Calculation
+from app.evaluate import evaluate
 from app.examples import examples
 from app.manual import NAMES, chapters
 from app.manual.equations import anchor, equations, functions, module_of
@@ -181,3 +182,33 @@ def test_every_calculation_has_its_chapter_and_method(calculation: Calculation) 
     assert method["misprints"].startswith("<div")
     assert method["limits"].startswith("<ul>")
     assert "<a " not in method["misprints"] + method["limits"] + method["lead"]
+
+
+def test_the_table_of_effects_is_computed_from_the_starter() -> None:
+    calculation, example = BY_PATH["/v1/drive-train"], examples()["starter-turbo-gear-drive-train"]
+    text = chapters()["drive-train"].text
+    rows = {
+        cells[0]: cells[1:] for cells in map(cells_of, text[text.index("| included effects |") :].splitlines()[2:7])
+    }
+    alone = {"shafts": False, "coupling": False, "thermal": False}
+    effects = {
+        "flanks only, as in the load distribution": alone,
+        "heat": alone | {"thermal": True},
+        "shafts and films": alone | {"shafts": True},
+        "shafts, films, coupling": alone | {"shafts": True, "coupling": True},
+        "all": {},
+    }
+    assert rows.keys() == effects.keys()
+    for name, switched in effects.items():
+        request = calculation.request.model_validate({**example.request, "effects": switched})
+        answer = evaluate(calculation, request)
+        numbers = [float(cell.removesuffix(" µm")) for cell in rows[name]]
+        slopes, load = answer.misalignment, answer.load
+        computed = slopes.shaft_slope_um, slopes.thermal_slope_um, load.face_load_factor, load.face_load_at
+        assert numbers[:4] == pytest.approx(computed, abs=0.0501), name
+        assert numbers[2:] == pytest.approx([*computed[2:], answer.safety.blok_flank], abs=0.00501), name
+
+
+def cells_of(line: str) -> list[str]:
+    """Return the cells of a row of a table in Markdown."""
+    return [cell.strip() for cell in line.strip("|").split("|")]
