@@ -111,7 +111,7 @@ def _missing(branch: Branch, names: set[str]) -> Iterator[str]:
 
 
 def _choices(model: type[Documented]) -> Iterable[tuple[str, ...]]:
-    """Return the groups of fields of which a request must contain exactly one."""
+    """Return groups of fields. A request must contain exactly one field of each group."""
     groups: Any = model.exclusive if getattr(model, "choice_missing", None) else ()
     return [group for group in groups[:1] if all(model.model_fields[name].default is None for name in group)]
 

@@ -140,7 +140,7 @@ def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, dig
 
 
 def _named(leaf: Leaf, items: tuple[str, ...]) -> tuple[str, ...]:
-    """Put its name before each item, such as "x" before a component of a vector.
+    """Put names before the items of a field, such as "x" before the first component of a vector.
 
     If the field declares no names, return the items unchanged.
     """

@@ -132,7 +132,7 @@ class Documented(BaseModel):
     @classmethod
     @abstractmethod
     def _filled(cls, kind: Any, record: Any, name: str, names: dict[str, str], *, nullable: bool) -> tuple[Any, Any]:
-        """Return the type and the default of a new field, which the dataclass `record` declares under `name`.
+        """Return the type and the default of the model's field for the field `name` of the dataclass `record`.
 
         `names` maps the solver's names to names in the interface. If `nullable` is True, an answer field may be null.
         """

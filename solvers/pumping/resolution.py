@@ -172,10 +172,7 @@ def _side_by_side(gas: Gas, fine: SpaceFlow, coarse: SpaceFlow) -> tuple[FloatAr
 
 
 def _difference(here: FloatArray, there: FloatArray) -> float:
-    """Compute the root mean square difference of two fields.
-
-    Only points at which both fields are near their maxima count.
-    """
+    """Compute the root mean square difference of two fields, over the points at which both are near their maxima."""
     close = (here >= CLOSE * here.max()) & (there >= CLOSE * there.max())
     return float(np.sqrt(np.mean((here - there)[close] ** 2))) if close.any() else 0.0
 

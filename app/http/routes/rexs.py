@@ -21,7 +21,7 @@ FILE = {"type": "string", "format": "binary"}
 
 
 def _body(types: tuple[str, ...], **form: dict[str, str]) -> dict[str, Any]:
-    """Describe the body of an operation: a file of one of the `types`, or a form with the file and the parts `form`."""
+    """Describe the body of an operation: a file of one of the `types`, or a form with the file and other fields."""
     properties = {"file": FILE, **form}
     schema = {"type": "object", "required": ["file"], "additionalProperties": False, "properties": properties}
     content = {**{media_type: {"schema": FILE} for media_type in types}, FORM: {"schema": schema}}

@@ -1,7 +1,8 @@
 """Tilts of the coupling hubs in equilibrium with the loads of the couplings.
 
-The ports of a unit are the stations of the face and the hubs on the unit's shafts (see `influence`). If the shaft moves
-by u at the hub of a coupling, both hubs of this coupling have the tilts x = rest + lever u. Here `rest` are the tilts
+The ports of a unit are the stations of the face and the hubs on the unit's shafts (see `influence`). A coupling has
+one hub on a shaft of the unit and one hub on a machine. If the shaft moves by u at its hub, the two hubs have the tilts
+x = rest + lever u. Here `rest` are the tilts
 for u = 0, and `lever` is a constant matrix. The loads p(x) of the coupling bend the shaft, and the bent shaft moves the
 hub. Newton's step on x has the matrix I - lever D dp/dx, where D is the derivative of the hubs' motion with respect to
 the loads of the couplings.
