@@ -56,13 +56,13 @@ class Flow:
                 return place if torque * speed < 0.0 else 1 - place
         return None
 
-    def loaded_side(self, pair: Pair) -> bool | None:
-        """Return True if the right flank of the first gear of the pair carries the load, and False for its left flank.
+    def direction(self, pair: Pair) -> tuple[int, bool] | None:
+        """Return the position of the driving gear, and True if the speed of the first gear is positive.
 
-        Return None if this flank is not known.
+        Return None if the driving gear is not known.
         """
-        driver, speed = self.driver(pair), self.speed.get(pair.shafts[0].id)
-        return None if driver is None or not speed else (speed > 0.0) == (driver == 0)
+        driver = self.driver(pair)
+        return None if driver is None else (driver, self.speed[pair.shafts[0].id] > 0.0)
 
 
 class Train:

@@ -185,17 +185,20 @@ def _cases(stage: StageDraft, pair: Pair, flows: list[Flow]) -> list[_Case]:
         case = flow.reading.case
         if case is None:
             continue
-        if {flow.loaded_side(pair), stage.flow.loaded_side(pair)} == {True, False}:
+        directions = {flow.direction(pair), stage.flow.direction(pair)} - {None}
+        if len(directions) > 1:
             message = (
-                f"in the load case {case.name[:40]}, torque or speed has another direction than in the request, so the "
-                "other flanks carry the load; the case is calculated with the flanks and modifications of the request"
+                f"in the load case {case.name[:40]}, torque or speed has another direction than in the request; the "
+                "case is calculated with the driving gear, the rotation and the loaded flanks of the request"
             )
-            flow.reading.find("other_flanks", pair.stage, None, message)
+            flow.reading.find("other_direction", pair.stage, None, message)
         changes: dict[str, Any] = stage.load(flow)
         own = _draft_of(pair, flow, stage.order[0]) if case.attributes.keys() - load_sources else stage
         for path, value in own.fields.items():
             component, attribute = own.origins.get(path, (None, None))
             is_stated = component is not None and attribute is not None and flow.reading.says(component, attribute)
+            if path.startswith("modifications.") and not is_stated:
+                continue  # of the other flanks, if the load has another direction
             if path not in changes and (is_stated or stage.fields.get(path) != value):
                 changes[path] = value
         cases.append(_Case(case.name, rounded(share), changes))

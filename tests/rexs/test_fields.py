@@ -645,8 +645,13 @@ def in_cases(unit: Unit, *cases: dict[int, dict[str, Given]]) -> Unit:
     return unit
 
 
-def test_a_load_case_on_the_other_flanks_is_told() -> None:
+def test_a_load_case_of_another_direction_is_told_and_keeps_the_flanks() -> None:
+    """A modification is on the flanks that carry in the request. The last case has another direction there."""
     unit = turbo_unit()
+    flanks = [each["id"] for each in unit.components if each["type"] == "cylindrical_gear_flank"]
+    for flank, amount in zip(flanks, (10.0, 20.0, 30.0, 40.0), strict=True):
+        slope = unit.add("helix_slope", helix_slope=(amount, "mum"))
+        unit.relate("reference", origin=flank, referenced=slope)
     load, shaft = first(unit, "external_load"), first(unit, "shaft")
     in_cases(
         unit,
@@ -654,9 +659,15 @@ def test_a_load_case_on_the_other_flanks_is_told() -> None:
         {shaft: {"rotational_speed": (-10000.0, "1 / min")}},
         {load: {"power": (9000.0, "kW")}},
         {load: {"power": (-12000.0, "kW")}, shaft: {"rotational_speed": (-10000.0, "1 / min")}},
+        {load: {"power": (-12000.0, "kW")}, first(unit, "gear_casing"): {"temperature_lubricant": (60.0, "C")}},
     )
-    told = [each["message"] for each in answer(unit)["findings"] if each["code"] == "other_flanks"]
-    assert [re.findall(r"load case (\d+)", message) for message in told] == [["1"], ["2"]]
+    found = answer(unit)
+    told = [each["message"] for each in found["findings"] if each["code"] == "other_direction"]
+    assert [re.findall(r"load case (\d+)", message) for message in told] == [["1"], ["2"], ["4"], ["5"]]
+    (stage,) = found["stages"]
+    assert stage["requests"][LOAD]["modifications"]["helix_slope_um"] != 0.0
+    changed = {path.partition(".")[0] for case in stage["cases"] for path in case["overrides"]}
+    assert changed == {"load", "temperatures"}
 
 
 def test_power_in_a_load_case_counts_before_the_torque_of_the_model() -> None:
