@@ -196,7 +196,7 @@ class _Study(Generic[Http]):
     def _begin(self) -> float:
         """Reset the study before a new run.
 
-        Return the clock time [s] until which the client waits for a busy service.
+        Return the reading of the monotonic clock [s] after which the client stops repeating a refused request.
         """
         self.header, self.end = {}, {}
         if self._progress:

@@ -51,5 +51,5 @@ def records(shape: int | tuple[int, ...], fields: Fields) -> RecordArray:
 
 
 def floats(*names: str) -> Fields:
-    """Return record fields with these names; each field holds one number."""
+    """Return the names and types of record fields that hold one float each."""
     return [(name, np.float64) for name in names]

@@ -53,7 +53,7 @@ def guarded(
 
 
 def checked(inputs: T, prefix: str = "") -> T:
-    """Return `inputs` if every declared number in this dataclass is inside its range.
+    """Return `inputs` if every number in this dataclass is inside the range that is declared for it.
 
     Otherwise raise `InvalidInput` with the code `out_of_range` and the dotted name of the first wrong field. This check
     is for inputs that are built in Python; the service checks requests when they arrive.

@@ -89,7 +89,7 @@ UNITS = {
     "w_per_m2_k": Unit("W/(m² K)", 1.0),
     "w_per_k": Unit("W/K", 1.0),
 }
-"""Units by the suffix of field names in the API."""
+"""Units of shown values. A key is the suffix of a field name in the API, such as `mm` in `module_mm`."""
 
 
 @dataclass(frozen=True)
@@ -350,9 +350,9 @@ def to_dict(data: Any) -> dict[str, Any]:
 
 
 def _named(data: Any, outer: Quantity | None) -> dict[str, Any]:
-    """Return the declared values under their names in the API.
+    """Return the declared values of `data` under their names in the API.
 
-    Inner values that declare no unit take the unit of `outer`, the declaration of the field that contains `data`.
+    `outer` is the declaration of the field that contains `data`. A value that declares no unit has the unit of `outer`.
     """
     kind: Any = type(data)
     named = {}

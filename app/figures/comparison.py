@@ -37,7 +37,8 @@ def _key(panel: Panel) -> tuple[str, str | None]:
 def _overlaid(panel: Panel, other: Panel, name: str) -> Panel:
     """Return `panel` with those parts of `other` added that differ from the parts of `panel`.
 
-    Parts are curves, edges of filled shapes, bars, rows and limits. Marks are added only if the panel has areas.
+    Parts are curves, edges of filled shapes, bars, rows, limits and references. If `panel` has areas, all marks of
+    `other` are added too.
     """
     own = {(level.name, level.value) for level in panel.levels}
     levels = (level for level in other.levels if (level.name, level.value) not in own)

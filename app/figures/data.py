@@ -226,7 +226,7 @@ class Area:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Panel:
-    """A pair of axes with the curves, maps and texts that are drawn between these axes.
+    """A pair of axes with the curves, maps and texts that are drawn on these axes.
 
     `shapes` are polygons. If `equal` is set, both axes have the same scale.
     """

@@ -162,8 +162,8 @@ def deciding(limited: Limited) -> Figure:
 def losses(cases: dict[str, dict[str, float]], mean: dict[str, float], energy: float | None) -> Figure:
     """Draw the mean losses for every case and for the whole operating time, divided into the kinds of loss.
 
-    `mean` holds the losses [kW] averaged over the operating time. The keys of `mean` are the kinds of loss. `cases`
-    holds such a dictionary for each case. `energy` is the energy lost per year [MWh].
+    `mean` maps the kinds of loss to the losses [kW], averaged over the operating time. `cases` maps the name of each
+    case to the losses [kW] of this case, again by the kind of loss. `energy` is the energy lost per year [MWh].
     """
     hues = {kind: ORDER[place % len(ORDER)] for place, kind in enumerate(mean)}
     rows = []

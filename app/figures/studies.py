@@ -349,7 +349,7 @@ def lead_chart(
 def search(output: Axis, objectives: Sequence[float | None], *, greatest: bool) -> Figure:
     """Draw the output at the worst corner for each of the corrections that a search has tried.
 
-    An objective is None if the correction has no solution.
+    An item of `objectives` is the output of one correction; None if the calculation has no solution.
     """
     reached = values(objectives)
     so_far = np.fmax.accumulate(reached) if greatest else np.fmin.accumulate(reached)

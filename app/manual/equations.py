@@ -39,7 +39,7 @@ class Equation:
 class Function:
     """A function or class that implements equations.
 
-    `head` is the line with the signature, and `text` is the docstring, both as they stand in the source code.
+    `head` is the name and the signature of a function, or the name of a class. `text` is the docstring.
     """
 
     name: str

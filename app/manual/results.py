@@ -193,9 +193,9 @@ def place_of(declared: Quantity) -> Place | None:
 
 
 def _target(targets: str, name: str) -> str:
-    """Select the target of the field `name`, such as "coupling#numerics".
+    """Return the target of the field `name`: the number of an equation, or a section of a chapter.
 
-    `targets` is a text from `PLACES`. It lists the targets of all fields of one dataclass.
+    `targets` is the text that `PLACES` holds for the dataclass with this field.
     """
     target, *others = targets.split("; ")
     for other in others:

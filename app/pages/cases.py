@@ -51,8 +51,8 @@ class Asked:
     hash, the page tells the reader that the numbers may have changed.
 
     A case that is too long for a link is sent by POST. The addresses of its figures contain the field `answered`, which
-    holds two hashes: the hash of the case and the hash of the variant. Such an address works as long as the answers of
-    both are kept.
+    holds two hashes: the hash of the case and the hash of the variant. Such an address works as long as the service
+    keeps both answers.
     """
 
     path: str
@@ -252,8 +252,8 @@ def faults_of(error: Exception, calculation: Calculation) -> list[Fault]:
 def _titled(message: str, path: str, calculation: Calculation) -> str:
     """Replace the names of fields in a message by the titles of these fields.
 
-    Two fields in different sections may have the same name. A name then stands for the field in the section of the
-    field `path`, if this section has such a field.
+    Two fields in different sections may have the same name. If the section of the field `path` has a field with the
+    name, the name stands for this field.
     """
     section, _, own = path.rpartition(".")
     models = (calculation.request, calculation.response)

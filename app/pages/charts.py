@@ -27,9 +27,9 @@ class Chart:
     """A figure on a page.
 
     `image` is the address of the image. `dark` is the address of a second image for dark pages, or an empty text. The
-    values of the figure are either at the address `values`, or in `content` and `table`. `study` holds the points of a
-    sweep and the links to the cases at these points. `content` and `study` are JSON texts. `size` is width and height
-    in pixels, or None if the data of the figure are still to be computed.
+    numbers of the figure are either loaded from the address `values`, or contained in `content` and `table`. `study`
+    holds the points of a sweep and the links to the cases at these points. `content` and `study` are JSON texts. `size`
+    is width and height in pixels, or None if the data of the figure are still to be computed.
     """
 
     name: str
@@ -47,7 +47,7 @@ class Chart:
 def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Figure:
     """Return a figure of the case; raise NoFigure if the case does not have this figure.
 
-    If the variant has the figure too, the curves of the variant are added for comparison.
+    If `variant` is given and has the same figure, the curves of `variant` are added for comparison.
     """
     figure = declaration.figure(case.request, case.response)
     if variant is None:

@@ -183,8 +183,8 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
 def _section(title: str, blocks: Iterable[Block], state: State, paths: list[str], **settled: Any) -> Section:
     """Return a section of the form, with the fields of the request at or below `paths`.
 
-    `settled` holds further attributes of the section. The section is open if `settled` marks it as needed. It is also
-    open if one of its fields is given, has a fault or affects a verdict.
+    `settled` holds further attributes of the section. The section is open if its attribute `needed` is True, or if one
+    of its fields is given, has a fault or affects a verdict.
     """
     groups = (state.texts, state.faults, state.assumed, state.deciding)
     given, faulty, assumed, deciding = (sum(_count(names, path) for path in paths) for names in groups)
@@ -295,8 +295,8 @@ def _blocks(branch: Branch, prefix: str, state: State) -> Iterator[Block]:
 def _choices(branch: Branch) -> dict[str, tuple[Leaf, ...]]:
     """Return the groups of alternative fields. Only one field of each group may be given.
 
-    A key is the path of a field, and the value under this key is the group that contains the field. If a field is in
-    several groups, only the first of these groups counts.
+    A key is the path of a field, and the value under this key is the group that contains the field. A group is left out
+    if one of its fields is also in an earlier group.
     """
     fields = {_last(leaf.path): leaf for leaf in branch.leaves}
     choices: dict[str, tuple[Leaf, ...]] = {}

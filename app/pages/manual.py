@@ -42,7 +42,7 @@ FIXED = {
     "html_block": "",  # comments that mark generated parts in the file
     "html_inline": "",  # anchors for links between the files; the pages have anchors of their own
 }
-"""Markdown elements with constant HTML. Each of these elements always becomes the HTML given here."""
+"""HTML for the elements of Markdown that always become the same HTML. The keys are the types of the elements."""
 
 
 @lru_cache(maxsize=4)
@@ -155,7 +155,7 @@ def _is_of(leaf: Leaf, chapter: Chapter) -> bool:
 class ShownStudy:
     """A study of an example case. A chapter of the manual shows one figure of this study.
 
-    `path` and `pairs` form the link to the case. `page` is the part of the address that names the kind of study, and
+    `path` and `pairs` form the link to the case. `page` is the name of the kind of study in the addresses of the study.
     `controls` are the settings of the study.
     """
 
@@ -167,7 +167,10 @@ class ShownStudy:
     figure: str
 
     def address(self, file: str = "", **views: str) -> str:
-        """Return the address of the page of the study, or of a file below the page."""
+        """Return the address of the study's page.
+
+        If `file` is given, for example "/figures/curve.svg", return the address of this file of the study instead.
+        """
         return link(f"{self.path}/{self.page}{file}", self.pairs, **self.controls, **views)
 
 

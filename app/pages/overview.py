@@ -30,7 +30,7 @@ def start_page(root: str) -> str:
 
 
 def _entry(calculations: list[Calculation]) -> dict[str, Any]:
-    """Return what the start page shows of a model: a question, a figure and the calculations of the model.
+    """Return the entry of a model on the start page: a question, a figure, and the calculations of the model.
 
     The question is the title of an example of the first calculation.
     """

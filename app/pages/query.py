@@ -137,8 +137,9 @@ def _in_link(model: type[Documented], name: str, text: str, others: dict[str, st
 def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
     """Return those fields that the link of a case contains.
 
-    Empty fields are left out. If the user has chosen one of several fields that exclude each other, the other fields
-    are left out. The fields that state such a choice (see `PICK`) are left out too. The items of lists are renumbered.
+    Empty fields are left out. If the user has chosen one of several fields that exclude each other, the fields that the
+    user did not choose are left out. The fields that state such a choice (see `PICK`) are left out too. The items of
+    lists are renumbered.
     """
     picked = {text for name, text in pairs if name.startswith(PICK)}
     kept: Pairs = []
@@ -176,8 +177,8 @@ def excluded(name: str, leaf: Leaf) -> tuple[str, ...]:
 def body_of(model: type[Documented], pairs: Pairs) -> dict[str, Any]:
     """Return the request body with these fields.
 
-    A text that is not a number remains a text, so that the validator refuses it. Raises Unreadable if a name is
-    malformed, or if two names contradict each other.
+    If a field takes a number but its text is not a number, the text is kept; the validator then refuses the text.
+    Raises Unreadable if a name is malformed, or if two names contradict each other.
     """
     body: dict[str, Any] = {}
     for name, text in pairs:
@@ -267,9 +268,9 @@ def _with_lists(model: type[Documented], content: Any, path: str = "") -> Any:
 def _matrix(elements: dict[str, Any]) -> Any:
     """Return a matrix as a list of rows.
 
-    `elements` maps the index of each row to its elements, and these map the index of each column to a text. A missing
-    element becomes None. If only the first element is given, return this element alone: it stands for a multiple of
-    the unit matrix. If a key is not an index of the matrix, return `elements` unchanged.
+    `elements` maps the index of each row to a dictionary. This dictionary maps the index of each column to a text. A
+    missing element becomes None. If only the first element is given, return its text: the matrix is then this multiple
+    of the unit matrix. If a key is not an index of the matrix, return `elements` unchanged.
     """
     places = [str(place) for place in range(SIDE)]
     rows = [elements.get(place, {}) for place in places]

@@ -96,7 +96,7 @@ def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
 
 
 def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Section]:
-    """Return the sections with only those inputs that have one of these origins. Leave out empty sections."""
+    """Return the sections with only the inputs whose origin is in `origins`; leave out sections without such inputs."""
     chosen = (
         section._replace(rows=[row for row in section.rows if not origins.isdisjoint(_origins(row.cells))])
         for section in sections

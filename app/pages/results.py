@@ -207,9 +207,9 @@ def resolved(response: Response) -> dict[str, Any]:
 def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> list[Row]:
     """Return one headline number for each rank, sorted by rank.
 
-    If several numbers have the same rank, the number that the answer itself judges worst is returned. If the answer
-    judges several of these numbers equally, the largest of them is returned. If a warning makes the answer doubtful,
-    the level `good` is lowered to `near`.
+    If several numbers have the same rank, only the number with the worst verdict from `verdicts` is returned. If this
+    verdict occurs several times, or if `verdicts` judges none of these numbers, the largest number is returned. If a
+    warning makes the answer doubtful, the level `good` is lowered to `near`.
     """
     values, old = values_by_path(response), values_by_path(before)
     judged = verdicts(response) if isinstance(response, Response) else {}

@@ -38,7 +38,7 @@ def study_pages() -> tuple[type[Any], ...]:
 
 
 def study_page(name: str) -> type[Any]:
-    """Return the page of the kind of study that has this name in addresses."""
+    """Return the page class of a kind of study; `name` is the last part of the address of its page."""
     return next(page for page in study_pages() if page.link.name == name)
 
 

@@ -83,8 +83,8 @@ def studies_of_case(
     The range of a varied field depends on the value of the field in the case:
 
     - If the case states a value other than zero, or implies a value, the range lies around this value.
-    - If the case states zero, or if the field has options and is empty, the range is that of the example.
-    - In all other cases the study is left out.
+    - If the case states zero, or if the field has options and is empty, the range of the example is used.
+    - Otherwise the list contains no link to the study.
     """
     address, starters = f"{page_path(calculation)}/{VARY}", []
     for example in studies_of(calculation):

@@ -47,7 +47,7 @@ def symbol(text: str | None) -> Markup:
 
 
 def shown(value: object, digits: int = 5) -> str:
-    """Return a single value in words or digits."""
+    """Return the text of a value: numbers in digits, all other values in words."""
     match value:
         case None:
             return NO_VALUE

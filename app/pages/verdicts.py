@@ -90,7 +90,7 @@ def _misalignment(response: CouplingResponse) -> Verdict:
 
 
 def _coupling(response: CouplingResponse) -> str:
-    """Say whether the coupling locks axially, how its teeth are lubricated and how far it may be tilted."""
+    """Say whether the coupling locks axially, how its teeth are lubricated and which misalignment is permitted."""
     thrust, most = response.axial_thrust, response.limits.allowable_misalignment_deg
     if thrust.fraction_of_limit is None:
         locks = "The coupling carries no load, so no friction locks the coupling axially"

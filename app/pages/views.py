@@ -135,8 +135,8 @@ def _asked_back(pairs: Pairs, faults: list[Fault]) -> list[Fault]:
 def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:
     """Return the answers that the service shall store, under their keys.
 
-    These are the answers of the case and of the variant that the service does not store yet; `key_of` makes the key of
-    an answer from the fields. If the case is too long for a link, both answers are also returned under keys made from
+    The answer of the case, or of the variant, is returned if the service has not stored this answer yet; `key_of` makes
+    the key from the fields. If the case is too long for a link, both answers are also returned under keys made from
     hashes.
     """
     keep = {}

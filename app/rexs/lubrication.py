@@ -40,8 +40,8 @@ class Lubrication:
     def _base_oil(self, oil: Component) -> None:
         """Fill in the kind of base oil.
 
-        The attributes for the type of lubricant count before other texts about the oil. If there is no model for the
-        kind of oil in the file, the kind is recorded as a finding.
+        The attributes for the type of lubricant take precedence over other texts about the oil. If there is no model
+        for the kind of oil in the file, add a finding that names this kind.
         """
         path, texts = "lubricant.kind", {}
         for name in (*table.OIL_TYPES, *table.OIL_WORDS):

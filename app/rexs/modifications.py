@@ -150,7 +150,7 @@ class Modifications:
         """Fill in the profile slope and the helix slope.
 
         In the file, a positive profile slope removes material at the tip, and a positive helix slope removes material
-        at the non-datum face. The datum face is the end of the gear at which u is least.
+        at the non-datum face. The datum face is the end of the gear at which the coordinate u along the shaft is least.
         """
         sums, origins = {"profile_slope": 0.0, "helix_slope": 0.0}, {}
         for place, item in self._carried:
@@ -177,9 +177,10 @@ class Modifications:
     def _end_sense(self, place: int) -> float | None:
         """Return +1 if the u axis of the gear's shaft points to the end of the face that leaves the mesh last, else -1.
 
-        Return None if the sense of rotation is not known. The u axis of the driving gear's shaft points to the end that
-        leaves the mesh last if -sigma h = +1. Here sigma is the sense of rotation about this axis, +1 or -1. For the
-        helix of the driving gear, h is +1 if the helix is right-hand, and -1 if it is left-hand.
+        The u axis is the axis of the coordinate u along the shaft. Return None if the sense of rotation is not known.
+        For the shaft of the driving gear, the result is -sigma h. Here sigma is the sense of rotation of the driving
+        gear about the u axis, +1 or -1. The helix of the driving gear determines h: +1 for a right-hand helix, -1 for a
+        left-hand helix.
         """
         stage = self._stage
         speed = stage.flow.speed.get(stage.shafts[0].id)
@@ -191,8 +192,8 @@ class Modifications:
     def _end_relief(self) -> None:
         """Fill in the end relief.
 
-        The request has the same end relief at both ends of the face. In the file, the amount at an end is the sum of
-        the amounts of both gears. The request gets the mean of the amounts at the two ends.
+        The file states an amount for each end of each gear. At each end of the face, the amounts of both gears are
+        added. The request has only one amount for both ends, which is the mean of the two sums.
         """
         depths, lengths, origins = {"datum_face": 0.0, "non_datum_face": 0.0}, list[float](), list[Component]()
         for end in depths:

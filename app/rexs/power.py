@@ -174,9 +174,11 @@ class Train:
         return forces
 
     def _loads(self, speeds: dict[int, float], reading: Reading) -> tuple[dict[int, float], set[int]]:
-        """Return the sum of the stated torques on each group [N m], and the set of the groups with an unknown torque.
+        """Return the stated torque on each group [N m], and the set of the groups whose balance of torques is not used.
 
-        At a group with an unknown torque, a torque enters or leaves the unit, but the file does not state its value.
+        The balance of a group is not used if the file does not state a torque that enters or leaves the unit there. If
+        the file seems to state all torques, the balance is not used at groups with a single mesh and no stated torque.
+        If there are no such groups either, the balance is not used where a stated torque takes power out of the unit.
         """
         torques: dict[int, float] = defaultdict(float)
         opened, leaving = set(self._elsewhere), set()
@@ -210,9 +212,10 @@ class Train:
     def _stated_torque(self, load: Component, shaft: Component, speed: float | None, reading: Reading) -> float | None:
         """Return the torque [N m] of an external load about the axis of the unit, or None if the torque is not known.
 
-        `shaft` carries the load, and `speed` is the speed of the shaft. If the load states only a power, the torque is
-        computed from the power and the speed. A power that the load case states alone takes precedence over a torque in
-        the model. If `defines_torque` of the load is false, the result is None.
+        `shaft` carries the load, and `speed` [1/min] is the speed of the shaft about the axis of the unit. If the load
+        states only a power, the torque is computed from the power and the speed. If the load case states a power and
+        no torque, this power takes precedence over the torque in the model. If `defines_torque` of the load is false,
+        the result is None.
         """
         if reading.flag(load, "defines_torque") is False:
             return None

@@ -30,7 +30,7 @@ SECTIONS = {
     SCUFFING: MESH | {"temperatures", "lubricant"},
     "/v1/pumping": {"gears"},
 }
-"""For each endpoint that calculates a single mesh: names of the draft's sections that the request contains."""
+"""Endpoints that calculate a single mesh, with the sections of a draft that a request to the endpoint contains."""
 Vector = tuple[float, float, float]
 
 
@@ -266,7 +266,8 @@ class Reading:
 class Draft:
     """Draft of a request: values of fields, and the components and attributes of the file from which they come.
 
-    The keys are dotted paths in the request of /v1/scuffing. The draft also records missing and assumed values.
+    All dictionaries of the draft have dotted paths in the request of /v1/scuffing as keys. The draft also records
+    missing and assumed values.
     """
 
     reading: Reading

@@ -90,7 +90,7 @@ class StageDraft(Draft):
     def __init__(self, pair: Pair, flow: Flow, pinion: int | None = None) -> None:
         """Choose the pinion.
 
-        If another draft of the same stage has already chosen the pinion, `pinion` is the position of this gear in
+        If another draft of the same stage has already chosen the pinion, `pinion` is the position of the pinion in
         `pair`.
         """
         super().__init__(flow.reading)
@@ -255,7 +255,7 @@ class StageDraft(Draft):
         return Involute(self.teeth[place], module, radians(angle), radians(helix), shift)
 
     def values_of(self, components: Iterable[Component], row: table.Row) -> list[tuple[float, Component]]:
-        """Return a pair (value, component) for every component that states the number `row`."""
+        """Return a pair (value, component) for every component that states the number described by `row`."""
         numbers = ((self.reading.number(component, row), component) for component in components)
         return [(value, component) for value, component in numbers if value is not None]
 
@@ -440,8 +440,8 @@ class StageDraft(Draft):
     def _from_diameter(self, place: int, row: table.Row) -> bool:
         """Fill in the addendum from the tip diameter, or the dedendum from the root diameter. Return True on success.
 
-        `row` is `table.TIP_DIAMETER`, or else the row of the root diameter. An impossible diameter is recorded as a
-        finding and is not used.
+        `row` describes either the tip diameter or the root diameter. An impossible diameter is recorded as a finding
+        and is not used.
         """
         path, gear = f"gears.{ROLES[place]}.{row.field}", self.gears[place]
         diameter, flank = self.reading.number(gear, row), self.involute(place)

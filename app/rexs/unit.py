@@ -160,14 +160,17 @@ class _Case(NamedTuple):
 
     @property
     def of_scuffing(self) -> dict[str, Any]:
-        """The load case in the form in which the answer of /v1/rexs states load cases.
+        """The load case as the answer of /v1/rexs states it.
 
-        The changed fields are named by their paths in a request of /v1/scuffing.
+        The keys of `overrides` are the paths of the changed fields in a request of /v1/scuffing.
         """
         return {"name": self.name, "share": self.share, "overrides": self._in(SCUFFING)}
 
     def as_spectrum(self, endpoint: str) -> dict[str, Any]:
-        """Return the case in the form that /v1/spectrum takes. Fields that `endpoint` does not have are left out."""
+        """Return the load case as a request of /v1/spectrum states it for the calculation `endpoint`.
+
+        Changed fields that a request of `endpoint` does not have are left out.
+        """
         return {"name": self.name[:LONGEST_NAME], "share": self.share, "set": self._in(endpoint)}
 
     def _in(self, endpoint: str) -> dict[str, Any]:

@@ -108,7 +108,7 @@ class CouplingFriction(Section, of=si.Friction):
     def unused(self) -> dict[str, bool]:
         """Mark the friction curve as unused if a coefficient or a table is given.
 
-        Mark the coefficient at rest as unused if a coefficient is given.
+        If a coefficient is given, mark the coefficient at rest as unused too.
         """
         given = self.coefficient is not None
         return {"static_coefficient": given, "mixed_curve": given or self.mixed_law is not None}

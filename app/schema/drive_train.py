@@ -399,8 +399,9 @@ class DriveTrainRequest(MeshInOil):
     def unused(self) -> dict[str, bool]:
         """Mark inputs as unused in addition to the inputs that the base class marks.
 
-        These are inputs of effects that are switched off, inputs that the heat balance replaces, and two inputs of the
-        cooling.
+        This method always marks the pumping loss and the mass of the casing. If the effect of the shafts or of the
+        couplings is switched off, it marks the couplings and their friction law. If the thermal effect is switched off,
+        it marks the wall responses. If there is a heat balance, it marks the bulk temperatures of the gears.
         """
         coupled = self.couplings and self.effects.shafts and self.effects.coupling
         return (
@@ -429,7 +430,10 @@ class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
         return self
 
     def unused(self) -> dict[str, bool]:
-        """Mark the list of states as unused. Do not mark the mass of the casing, because a warm-up uses this mass."""
+        """Change two marks of the base class.
+
+        A warm-up does not use the list of states, but it uses the mass of the casing.
+        """
         return super().unused() | {"cooling.casing.mass_kg": False, "states": True}
 
     def inputs(self) -> warm_up.WarmUpInputs:  # type: ignore[override]

@@ -26,10 +26,11 @@ ITEM = "*"
 class Leaf:
     """A field that holds values and is not a section of further fields.
 
-    `declared` says what the field means. `view` says how a result in this field is judged. `title` is unique within the
-    request or answer. If several fields are declared with the same title, the title of a section is therefore added to
-    the `title` of each of these fields. `dimensions` is 0 for a scalar, 1 for a list and 2 for a matrix. `axes` holds
-    the full paths of the fields that are the axes, one path per dimension. `axes` is empty if the field has no axes.
+    `declared` says what the field means. `view` says how pages show and judge a result in this field. `title` is
+    unique within the request or answer. If several fields are declared with the same title, the title of a section is
+    therefore added to the `title` of each of these fields. `dimensions` is 0 for a scalar, 1 for a list and 2 for a
+    matrix. `axes` holds the full paths of the fields that are the axes, one path per dimension. `axes` is empty if the
+    field has no axes.
     """
 
     path: str
@@ -218,9 +219,10 @@ def _below(model: type[Documented], above: _Way, titles: dict[str, str]) -> tupl
 def _leaf(model: type[Documented], way: _Way, titles: dict[str, str]) -> Leaf:
     """Return the leaf at the end of a way.
 
-    A way is the chain of sections that leads to a field, and ends with the field. If the field declares the level of
-    detail `summary`, the level comes from the innermost section that declares another level. If there is no such
-    section, the level is `summary`.
+    A way is the chain of sections that leads to a field, and ends with the field. The level of detail of the leaf is
+    the level that the field declares. If the field declares the level `summary`, the leaf has the level of the
+    innermost section that declares another level. If no section declares another level, the leaf has the level
+    `summary`.
     """
     member, path = way[-1], _path(way)
     info, meaning, prefix = member.info, member.meaning, path.rpartition(".")[0]
@@ -286,12 +288,14 @@ def field_path(request: Documented, name: str) -> str | None:
 def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
     """Return the interface names of the field or list item that a solver calls `wanted`; None if nothing matches.
 
-    `wanted` may leave out sections. A field matches if its last name in the solver is the last name in `wanted`, if its
-    names contain all names in `wanted` in the same order, and if it has the same number of list indices. If several
-    fields match, the field with the fewest names is taken.
+    `wanted` may leave out sections. The solver's names of a field are compared with `wanted`. A field matches if three
+    conditions are met: its last name is the last name in `wanted`; its names contain all names in `wanted`, in the same
+    order; and its names contain as many list indices as `wanted`. If several fields match, the field with the fewest
+    names is taken.
 
-    The solver's inputs may have outer parts that the request lacks. If nothing matches, the outermost names in `wanted`
-    are therefore dropped, one after another. The first remaining name must then be at the root of the request.
+    The first names in `wanted` may be those of solver inputs that contain all inputs of the request. If nothing
+    matches, the first names in `wanted` are therefore dropped, one after another. A field then matches only if its
+    first name is the first remaining name.
     """
     request_names: dict[_Names, _Names] = {}
     for way in _ways(model):

@@ -57,8 +57,8 @@ class Documented(BaseModel):
 
     `exclusive` lists groups of field names. At most one field of each group may be given. `member_unit` is the unit of
     all fields whose own names state no unit. For example, the fields of the section `mass_flow_g_per_s` are in g/s,
-    because the name of the section states this unit. `views` says how outputs are judged. The keys of `views` are the
-    solver's names of the outputs.
+    because the name of the section states this unit. `views` says how pages show and judge
+    outputs. The keys of `views` are the solver's names of the outputs.
     """
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
@@ -275,10 +275,10 @@ def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, A
 
 @cache
 def _sources(group: type[Documented], record: Any, detail: Detail) -> tuple[tuple[Member, str | None], ...]:
-    """Return pairs for the fields of a response group that are read from a solver's result of the type `record`.
+    """Return the fields of a response group, and where a solver's result of the type `record` holds their values.
 
-    Each pair consists of a response field and a name. The name is the member of the result that holds the value, or
-    None if the result itself holds the value. Fields above the level of detail are left out.
+    Each field comes with the name of the member of the result that holds the value. This name is None if the result
+    itself holds the value. Fields that no dataclass declares, and fields above the level of detail, are left out.
     """
     held = {name: inner for name, hint in get_type_hints(record).items() if (inner := _record_in(hint))}
     sources = []
@@ -354,7 +354,7 @@ class Section(Documented):
         return kind(**self.filling(kind, *others, **values))
 
     def filling(self, kind: type[Any], /, *others: "Section", **values: Any) -> dict[str, Any]:
-        """Return the values with which `si` fills the dataclass. The keys are the names of the fields."""
+        """Return the values with which `si` fills the dataclass `kind`. The keys are the names of its fields."""
         given: dict[str, Any] = {}
         record: Any = kind
         for section in reversed((self, *others)):
@@ -364,9 +364,10 @@ class Section(Documented):
         return given | values
 
     def unused(self) -> dict[str, bool]:
-        """Return the fields and subsections of this section that have no effect, given the values of the other fields.
+        """Return which fields and subsections of this section have no effect, given the values of the other fields.
 
-        The keys are dotted names that start below this section. The value True means: no effect.
+        The keys are dotted names that start below this section. A value is True if the field or subsection has no
+        effect.
         """
         return {}
 
@@ -447,7 +448,7 @@ class Notice(Group):
 
 
 class Assumption(Group):
-    """A default that affects this result. This project chose the default; the paper does not state it."""
+    """A default that affects the results of the answer. This project chose the default; the paper does not state it."""
 
     field: Annotated[str, Output("assumed field", text="dotted name of the request field")]
     value: Annotated[Any, Output("assumed value", text="the value used")]

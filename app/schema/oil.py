@@ -108,7 +108,7 @@ class SheetOil(Section):
     def sheet(self) -> OilSheet | None:
         """Return the oil that the grade or data sheet describes, or None if neither is given.
 
-        Raises InvalidInput (`viscosity_order`, `viscosity_index`) if no oil can have these viscosities.
+        Raises InvalidInput (`viscosity_order`, `viscosity_index`) if no oil can have the given viscosities.
         """
         index, kind, density = self.viscosity_index, self.kind, self.density_15_kg_per_m3
         if self.iso_vg is not None:
@@ -195,7 +195,7 @@ class Oil(SheetOil, of=Lubricant):
     def properties_follow_the_sheet(cls, given: Any) -> Any:
         """Use null as the default of the oil's properties, so that they follow from the grade or data sheet.
 
-        Keep the other defaults if only the viscosity describes the oil.
+        If only the viscosity describes the oil, do not change the defaults of these properties.
         """
         if not isinstance(given, dict) or (given.get("viscosity_pa_s") is not None and not _names_a_sheet(given)):
             return given

@@ -31,10 +31,10 @@ class PumpingOptions(Section, of=si.PumpingModel):
     """Choices that the paper leaves open in the pumping model."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark options as unused if the chosen flow model does not have them.
+        """Mark the options that the chosen flow model does not use.
 
-        Only the pocket chain uses `closure`. Only gas dynamics with contact gaps uses `wall_transport`. The
-        incompressible model does not use `slices`.
+        Only the pocket chain uses `closure`. Only gas dynamics uses `wall_transport`, and only if `gap` is `contact`.
+        The incompressible model does not use `slices`.
         """
         return super().unused() | {
             "closure": self.flow != "pocket_chain",
@@ -80,8 +80,9 @@ class PumpingMassFlow(Group, of=results.MassFlow):
     """Mass flow out of the tooth spaces of one gear.
 
     `front`, `rear`, `radial`, `grooves` and `reset` are net flows that add up to zero. `reset` belongs to no exit. It
-    is gas that is given back when the stroke of a slice ends and begins. Fields that end in `_out` and `_in` are the
-    outflow and the inflow at each end of the face. Fields that end in `_uncertainty` are uncertainties of net flows.
+    is the gas that slices lose when ambient gas replaces their content between two strokes, and the gas that flows to
+    slices outside their stroke. Fields that end in `_out` and `_in` are the outflow and the inflow at each end of the
+    face. Fields that end in `_uncertainty` are uncertainties of net flows.
     """
 
     member_unit: ClassVar = "g_per_s"
@@ -103,7 +104,7 @@ class PumpingBalance(Group, of=results.Balance):
 
 
 class PumpingProfile(Group, of=results.FaceProfile):
-    """Temperature rises and peak pressures along the face; the grooves are left out."""
+    """Temperature rises and peak pressures along the face; there are no values inside the grooves."""
 
 
 class PumpingField(Group, of=results.GasField):
@@ -150,15 +151,16 @@ class PumpingPulsation(Group, of=pulsation.Pulsation):
 class PumpingResolution(Group, of=results.Resolution):
     """Relative uncertainties of the results due to the limited resolution.
 
-    The resolution is the number of slices, steps or positions. The results are also computed with a half and with a
-    quarter of this number. The uncertainties follow from the differences.
+    The resolution is the number of slices in gas dynamics, of steps in the pocket chain, and of positions in the
+    incompressible model. The results are also computed with a half and with a quarter of this number. The
+    uncertainties follow from the differences.
     """
 
 
 class ChokingCurves(Group, of=results.ChokingCurves):
     """Results of a coarse scan of the pinion speed.
 
-    At each speed, a curve states the largest value among the selected tooth spaces.
+    Pressure ratio and exit Mach number are the largest values among the selected tooth spaces at each speed.
     """
 
     views: ClassVar = {"exit_mach": View(limit=1.0)}

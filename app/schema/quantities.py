@@ -127,7 +127,7 @@ class Output(View, _Declaration):
 
     @property
     def axes(self) -> tuple[str, ...]:
-        """Names of the fields that hold the axes, one name per dimension."""
+        """Names of the fields with the coordinates of the array's elements, one name per dimension of the array."""
         return (self.axis,) if isinstance(self.axis, str) else self.axis or ()
 
 

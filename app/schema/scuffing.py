@@ -415,9 +415,9 @@ class MeshInOil(Request):
     """The parts that requests about scuffing have in common: a loaded pair, an oil, temperatures, a law of friction.
 
     A request either gives a value or chooses a method that computes the value. For example, `model.friction` chooses
-    the method for the coefficient of friction, and `friction_coefficient` holds a given coefficient. `methods` maps the
-    field for the method to the fields for given values. If a request gives such a value but does not choose the method,
-    the method is set to "given".
+    the method for the coefficient of friction, and `friction_coefficient` holds a given coefficient. A key of `methods`
+    is the path of a field that chooses a method, and the item under this key holds the paths of the fields for given
+    values. If a request gives such a value but does not choose the method, the method is set to "given".
     """
 
     balance_is_default: ClassVar = False  # whether the heat balance is the default at low speeds, too
@@ -448,9 +448,9 @@ class MeshInOil(Request):
 
     @model_validator(mode="after")
     def balance_where_the_estimate_ends(self) -> Self:
-        """Choose the heat balance for the bulk temperature if the request gives no method and the balance fits.
+        """Choose the heat balance as method for the bulk temperature if the request does not choose a method.
 
-        The balance fits if an oil is given, if jets supply the oil, and if at least one of these conditions is met:
+        This is only done if an oil is given, if jets supply the oil, and if at least one of these conditions is met:
 
         - The heat balance is the default of this kind of request.
         - The request gives the cooling.
@@ -566,7 +566,7 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
         return self.gears.si(GearPairInputs), self.load.si(si.Load)
 
     def unused(self) -> dict[str, bool]:
-        """Add two fields to the unused fields, because only gear units use these two."""
+        """Mark the inputs that have no effect in this case, including two fields that only gear units use."""
         of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg")
         return super().unused() | dict.fromkeys(of_a_unit, True)
 
@@ -582,10 +582,9 @@ class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, Oi
 
 
 def how_well_known(response: Response, *paths: str) -> dict[str, str]:
-    """Return a remark that the temperatures at these `paths` are uncertain.
+    """Return, for each of the `paths`, the remark that the temperature at this path is uncertain.
 
-    The remark is given if the temperatures follow from a heat balance and no gear temperature was measured. Otherwise
-    the result is empty.
+    If the temperatures do not follow from a heat balance, or if a gear temperature was measured, the result is empty.
     """
     return dict.fromkeys(paths, KNOWN) if NOT_VALIDATED in {notice.code for notice in response.warnings} else {}
 

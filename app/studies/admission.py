@@ -24,7 +24,7 @@ logger = logging.getLogger("tribodrive")
 class StudyPool:
     """The workers of the service, as used by one study.
 
-    All studies and all other clients get equal shares of the workers.
+    A free worker gets the next call of the study or client that has the fewest running calls.
     """
 
     def __init__(self, workers: WorkerPool) -> None:

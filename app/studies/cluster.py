@@ -134,9 +134,9 @@ def prepare() -> None:
 def solved_with(sources: str, function: Callable[..., Any], *arguments: Any) -> Any:
     """Call a function in a worker of the cluster and return the result of the function.
 
-    `sources` is the hash of the source code of the service's solvers, which is part of the answers. Raises OtherSources
-    if the worker's solvers have another hash. Every call checks the hash, because a worker may join the cluster during
-    the study.
+    `sources` is the hash of the source code of the service's solvers. Raises OtherSources if the worker's solvers have
+    another hash, because answers state the hash of the service. Every call checks the hash, because a worker may join
+    the cluster during the study.
     """
     if sources != SOURCES:
         raise OtherSources(

@@ -73,7 +73,7 @@ class PointSet(NamedTuple):
 
 
 def _values_of_fields(value: Scalar | list[Scalar], leaves: tuple[Leaf, ...]) -> list[Scalar]:
-    """Return one value per field of an axis: the values of the list, or else the same value for all fields."""
+    """Return one value per field of an axis. If `value` is not a list, all fields have this value."""
     return value if isinstance(value, list) else [value] * len(leaves)
 
 
@@ -144,8 +144,8 @@ def _check_axis(axis: Axis, base: BaseRequest, place: str) -> CheckedAxis:
 def _spread(axis: Axis, leaves: tuple[Leaf, ...], place: str) -> list[Any]:
     """Return the values of an axis from start to stop.
 
-    The values have equal steps on a linear axis, and equal ratios on a logarithmic axis. Raises Unprocessable at start
-    or stop if a field does not accept this end, or if this end of a logarithmic axis is not positive.
+    The values have equal steps on a linear axis, and equal ratios on a logarithmic axis. Raises Unprocessable if a
+    field does not accept start or stop, or if start or stop of a logarithmic axis is not positive.
     """
     ends: dict[str, Any] = {"start": axis.start, "stop": axis.stop}
     for name, end in ends.items():
@@ -296,7 +296,7 @@ def unit_cube(method: Method, count: int, dimensions: int, seed: Any, place: str
 
 
 def usual_corners(request: Request) -> dict[str, Axis]:
-    """Return an axis with the usual values for each uncertain quantity of a gear unit.
+    """Return one axis per uncertain quantity of a gear unit. An axis holds the usual values of its quantity.
 
     The keys are the names of the quantities, such as "friction".
     """

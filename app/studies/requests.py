@@ -72,7 +72,7 @@ class Part(BaseModel):
 
     @model_validator(mode="after")
     def one_is_given(self) -> Self:
-        """Raise an error unless exactly one of the fields that exclude each other is given."""
+        """Raise an error unless exactly one of the fields in `exactly_one` is given, or `exactly_one` is empty."""
         if self.exactly_one and sum(getattr(self, name) is not None for name in self.exactly_one) != 1:
             *names, last = self.exactly_one
             known = ", ".join(names)
@@ -94,7 +94,7 @@ class FieldsTogether(Part):
 
 
 class Axis(FieldsTogether):
-    """One axis of a grid: the values of a field, either listed or spread evenly between two ends."""
+    """One axis of a grid: the values of one or more fields, either listed or spread evenly between two ends."""
 
     path: Annotated[FieldPaths, Input("varied field", text="dotted path of the field, or several that move together")]
     values: Annotated[

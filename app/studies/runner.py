@@ -108,9 +108,10 @@ async def in_order(
 ) -> AsyncGenerator[tuple[range, list[Point]], None]:
     """Solve the points with the given indices. Yield pairs: a range of indices, and the solved points of this range.
 
-    The pairs are yielded in the order of the indices. `overrides` returns the values that a point changes in the
-    request `question.base`. If a chunk loses its process or exceeds the deadline, its points are solved again one by
-    one. If the caller leaves the iteration, chunks that have not begun are cancelled.
+    The pairs are yielded in the order of the indices. `overrides` takes the index of a point, and returns the values
+    by which the request of this point differs from `question.base`. If a chunk loses its process or exceeds the
+    deadline, the points of the chunk are solved again one by one. If the caller leaves the iteration, chunks that have
+    not begun are cancelled.
     """
 
     def submit(some: range) -> tuple[range, asyncio.Future[Chunk]]:
@@ -145,8 +146,8 @@ async def in_order(
 async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrides], error: Exception) -> Chunk:
     """Solve the points of a chunk again, one by one, after the chunk failed with `error`.
 
-    If the process that solves a point is lost, the point is repeated once. A point that was alone in its chunk and
-    exceeded its deadline is not solved again.
+    If the process that solves a point is lost, solve the point once more. If the chunk has only one point and
+    exceeded the deadline, do not solve this point again.
     """
     late = question.failed("deadline_exceeded", "this point took longer than the time limit of one calculation")
     if len(overrides) == 1 and isinstance(error, DeadlineExceeded):
@@ -260,7 +261,7 @@ class Tally:
         self.outputs = outputs
 
     def add(self, point: Point) -> None:
-        """Count the next point and merge its assumptions."""
+        """Count a point, its error and its warnings, and merge its assumptions into `assumptions`."""
         self.counts[point.status] += 1
         if point.error is not None:
             self.errors[point.error["code"]] += 1
@@ -311,7 +312,7 @@ async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float 
 
 
 async def encoded(lines: Lines, encode: Callable[[Line], bytes]) -> AsyncGenerator[bytes, None]:
-    """Convert groups of lines into bytes. Yield one bytes object per group, and nothing for an empty group."""
+    """Yield the lines of each group as one bytes object. Skip groups without lines."""
     async with aclosing(lines):
         async for group in lines:
             if piece := b"".join(map(encode, group)):

@@ -73,7 +73,7 @@ class Estimate(NamedTuple):
 
     A draw (one machine) is unsolved if one of its cases has no solution. For the lower of the `bounds`, such a draw is
     judged by its solved cases alone. For the upper bound, every unsolved draw is beyond the limit. If the bounds
-    differ, `probability` is None. `risk` is the class of risk of the upper bound.
+    differ, `probability` is None. `risk` is the risk (low, moderate or high) at the upper bound.
     """
 
     probability: float | None
@@ -155,8 +155,8 @@ def _chances(chances: FloatArray, limit: Limit) -> Mean:
 def deciding(outputs: FloatArray, limit: Limit) -> list[float] | None:
     """Return, for each of the cases, the fraction of draws in which this case is the worst.
 
-    A draw is one machine, which runs every case. If several cases of a draw are equally bad, the draw is divided
-    equally among them. Draws with an unsolved case are left out. If no draws remain, the result is None.
+    A draw is one machine, which runs every case. If several cases of a draw share the worst value, the draw is
+    divided equally among these cases. Draws with an unsolved case are left out. If no draws remain, the result is None.
     """
     complete = outputs[~np.isnan(outputs).any(axis=-1)]
     if not complete.size:

@@ -2,7 +2,8 @@
 
 The owner of a call is a client or a study. A free worker gets a call of the owner with the fewest running calls; of
 several such owners, the owner whose last call began longest ago is next. If the queue is full, a new call of a client
-is rejected, unless another client has at least two calls more than this client. Waiting and running calls count.
+is rejected, unless another client has at least two calls more than this client. Both waiting calls and running calls
+count here.
 
 If nobody waits for the result of a running call any more, the call may run for another `GRACE_S` seconds. Then the
 worker of this call is killed and replaced.
@@ -79,7 +80,8 @@ class Pool:
     def _admit(self, owner: Hashable) -> None:
         """Raise QueueFull if the queue is full.
 
-        A client is nevertheless admitted if another client has at least two more waiting and running calls.
+        Do not raise QueueFull if another client has at least two calls more than the client `owner`. Both waiting calls
+        and running calls count here.
         """
         places = Counter(job.owner for job in (*self._running, *self._waiting) if job.is_single)
         if places.total() >= self.size + self._settings.queue and max(places.values()) <= places[owner] + 1:
@@ -122,7 +124,10 @@ class Pool:
             return None
 
     async def serve(self) -> None:
-        """Give calls to workers one after another, without end. This function runs once for each worker."""
+        """Take calls from the queue without end, and run them one after another, each in a free worker.
+
+        As many copies of this loop run at the same time as there are workers.
+        """
         while True:
             while len(self._running) >= self.alive or not (
                 waiting := [job for job in self._waiting if not job.outcome.done()]

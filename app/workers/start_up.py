@@ -31,17 +31,18 @@ class StartUp:
         return [name for name, percent in self._percent.items() if percent == 100]
 
     def require(self, *endpoints: str) -> None:
-        """Raise WarmingUp if the stage of an endpoint is not ready. Without endpoints, all stages are required."""
+        """Raise WarmingUp if the stage of an endpoint is not ready. If none is given, check all stages."""
         needed = {BY_PATH[endpoint].stage.name for endpoint in endpoints} or {*self._percent}
         if not needed <= {*self.warm}:
             report = ", ".join(f"{name} {percent} %" for name, percent in self._percent.items())
             raise WarmingUp(f"The solvers are being compiled, which happens once after installation: {report}")
 
     async def run(self) -> None:
-        """Compile all stages, then open all endpoints. If a process fails, compile once more in an empty folder.
+        """Compile all stages, then open the endpoints that are not open yet.
 
-        The endpoints also open if the second attempt fails. If there is no folder for compiled kernels, the endpoints
-        open without compilation. In both cases kernels are compiled when they are needed.
+        If a process fails, delete all compiled kernels and compile all stages once more. The endpoints also open if the
+        second attempt fails. If there is no folder for compiled kernels, the endpoints open without compilation. In
+        both cases kernels are compiled when they are needed.
         """
         began = time.monotonic()
         if FOLDER is not None and not await self._compile(STAGES):

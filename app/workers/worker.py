@@ -19,12 +19,15 @@ from typing import Any
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS", "MKL_NUM_THREADS"), "1")
 
 _notes = BufferingHandler(sys.maxsize)
-"""Keeps the log records of a call. The answer contains them, because a worker's standard error is not read."""
+"""Keeps the log records of a call. A worker returns these records, because its standard error is not read."""
 
 
 @lru_cache(maxsize=1)
 def prepare(memory_bytes: int, modules: Sequence[str]) -> int:
-    """Load modules and limit the memory, once, and return the identifier of this process."""
+    """Load modules, limit the memory, and return the identifier of this process.
+
+    Only the first call in a process does this work. Later calls with the same arguments return the identifier.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # ignored here, because Ctrl-C reaches every process of the terminal
     os.environ.update(ONE_THREAD)  # before numpy is loaded
     threading.Thread(target=_end_with_the_service, args=(os.getppid(),), daemon=True).start()

@@ -1,11 +1,11 @@
 """Recommendation of a crowning ratio for a coupling whose misalignment varies within a given range.
 
-The paper asks for a contact surface overlap below 1, and then for the largest possible load capacity. Two constraints
-limit the crowning ratio. A larger ratio reduces the overlap, which is largest at the smallest misalignment. A larger
-ratio also moves the contact towards the ends of the face, most of all at the largest misalignment. The overlap
-therefore sets a lower bound of the ratio, and the width of the face sets an upper bound. The range between both bounds
-may be empty, or only one percent wide. The module solves for both bounds, and finds the largest load capacity between
-them.
+The paper asks for a contact surface overlap below 1, and then for the largest possible load capacity. A larger crowning
+ratio reduces the overlap, which is largest at the smallest misalignment. A larger ratio also moves the contact towards
+the ends of the face; the contact is nearest to an end at the largest misalignment. The limit of the overlap therefore
+sets a lower bound of the ratio, and the face width sets an upper bound. The limits of pressure and width of the contact
+set further lower bounds. There may be no ratio between the bounds, or the upper bound may be only one percent above the
+lower bound. The module solves for the bounds, and finds the ratio with the largest load capacity between them.
 """
 
 from collections.abc import Callable

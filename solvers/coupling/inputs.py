@@ -279,7 +279,7 @@ class MixedFrictionCurve:
 
 @record
 class MixedFrictionTable:
-    """Table of measured mixed friction at rising sliding velocities; the friction is constant outside the table.
+    """Measured coefficients of mixed friction; the coefficient is constant outside the range of sliding velocities.
 
     A single point is sufficient.
     """

@@ -78,7 +78,9 @@ class FilmState:
 
 
 def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
-    """Compute the largest normal tooth force [N] while one tooth is at 90 degrees, in the tilt position.
+    """Compute the largest normal tooth force [N] at the rotor angle at which one tooth is in the tilt position.
+
+    The tilt position is the tooth angle of 90 degrees.
 
     If the pitch deviations of the teeth differ, the result is the largest force at any rotor angle.
     """
@@ -139,9 +141,10 @@ def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -
 def inlet_length(model: ModelOptions, face_width: float, max_travel: float) -> float:
     """Return the length b_I [m] of the converging gap ahead of the contact.
 
-    The paper does not define b_I; `model.inlet` chooses one of several definitions. With the inlet model `face`, b_I is
-    the part of the face that lies ahead of the contact at the end of its travel. According to the paper, the film is
-    thickest there. If the contact leaves the tooth, b_I is zero with every inlet model.
+    The paper does not define b_I. If `model.inlet_length` is not None, b_I has this value; otherwise `model.inlet`
+    chooses one of several definitions. With the inlet model `face`, b_I is the distance from the contact to the end of
+    the face, when the contact is farthest from the middle of the face. According to the paper, the film is thickest
+    when the contact is near this position. If the contact leaves the tooth, b_I is zero with every inlet model.
     """
     if max_travel >= face_width / 2.0:
         return 0.0
@@ -428,9 +431,9 @@ def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: flo
     -----
     Eq. C18. The paper states only a band of friction for each area. The law used here interpolates between the end
     values of these bands. The law lies inside the bands of areas 1.1, 1.3, 2.1, 2.2, 2.3 and 3.1. In area 1.2 the law
-    is a smooth transition. Near overlap 1 the law may leave the band of area 3.2; according to the paper itself, the
-    boundaries of the areas are not sharp ("fluid"). The coefficient of friction never rises when the load capacity
-    coefficient rises.
+    is a smooth transition from area 1.1 to area 1.3. Near overlap 1 the law may leave the band of area 3.2; according
+    to the paper itself, the boundaries of the areas are not sharp ("fluid"). The coefficient of friction never rises
+    when the load capacity coefficient rises.
     """
     if overlap > 2.0:
         return _poorly_supplied(overlap, load_capacity_coefficient)
@@ -462,7 +465,7 @@ def static_friction(friction: Friction) -> float:
 
     - the user's static coefficient
     - the user's coefficient of friction
-    - the coefficient of the friction map at zero sliding velocity, if the teeth have no film
+    - the coefficient of the friction map for teeth without a film at zero sliding velocity
     """
     if friction.static_coefficient is not None:
         return friction.static_coefficient

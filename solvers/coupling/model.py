@@ -65,7 +65,11 @@ def solve(inputs: CouplingInputs) -> CouplingResult:
 
 
 def _lubrication(film: FilmState, friction: float) -> Lubrication:
-    """Return the results of lubrication; a ratio that has no meaning is None."""
+    """Return the results of lubrication.
+
+    Contact overlap and inlet ratio are None if they are infinite. The load capacity coefficient is None if no tooth is
+    loaded.
+    """
     tr = film.load_capacity_coefficient
     return Lubrication(
         max_normal_force=film.max_normal_force,

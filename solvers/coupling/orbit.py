@@ -208,7 +208,10 @@ def _harmonics(force: FloatArray) -> FloatArray:
 def _result(
     angles: FloatArray, settled: _SettledPath, finer: Sequence[_SettledPath], geometry: Geometry
 ) -> OrbitResult:
-    """Return the orbit of the settled path. The largest difference from one of the finer paths is the uncertainty."""
+    """Return the results of the settled path.
+
+    The uncertainty of a result is the largest difference between this result and the same result of a finer path.
+    """
     harmonics = settled.harmonics
     displacement_uncertainty = max((abs(path.farthest - settled.farthest) for path in finer), default=None)
     harmonics_uncertainty = max((float(np.abs(path.harmonics - harmonics).max()) for path in finer), default=None)

@@ -168,9 +168,9 @@ class Lubrication:
 class SelfInducedThrust:
     """Thrust that two meshes cause without axial motion, as a mean over one tooth pitch.
 
-    `overturning_moment` is the moment of friction of both meshes on the sleeve. There are two closed forms:
-    `simple_model_force` for one pair of opposite teeth per mesh, and `uniform_load_force` for equal loads on all teeth.
-    Both closed forms are zero in the angular arrangement.
+    `overturning_moment` is the moment that the friction in both meshes exerts on the sleeve. Two closed forms give the
+    thrust: `simple_model_force` for one pair of opposite teeth per mesh, and `uniform_load_force` for equal loads on
+    all teeth. Both closed forms are zero in the angular arrangement.
     """
 
     force: float = quantity(

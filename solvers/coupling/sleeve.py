@@ -230,11 +230,11 @@ def balance_rows(
 
 @dataclass(frozen=True, slots=True)
 class SleeveEquilibrium:
-    """Thrust and overturning moment that two meshes cause on one sleeve.
+    """Thrust on the shafts and overturning moment on the sleeve, caused by the two meshes of the sleeve.
 
-    Both are means over one tooth pitch. If there are pitch deviations, they are means over one revolution. `thrust` [N]
-    acts on one shaft; a positive thrust pulls the shafts together. `overturning_moment` [N m] is the moment of friction
-    on the sleeve.
+    Thrust and moment are means over one tooth pitch, or over one revolution if there are pitch deviations. `thrust` [N]
+    is the axial force on one of the two shafts; a positive thrust pulls the shafts together. `overturning_moment` [N m]
+    is the moment of friction on the sleeve.
     """
 
     thrust: float

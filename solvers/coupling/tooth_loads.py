@@ -41,12 +41,12 @@ MAX_ITERATIONS = 10_000  # limit; no balance should reach this limit, because ea
 BALANCE_TOLERANCE = 1e-13  # in units of T/r_o; a few hundred rounding errors
 LONGEST_STEP = 1e100  # stands for infinity; the square of this number does not overflow
 STIFF = 1e-12
-"""Lateral stiffness of the sleeve that counts as zero, divided by the stiffness of the loaded teeth.
+"""Largest lateral stiffness of the sleeve that is treated as zero, divided by the stiffness of the loaded teeth.
 
 Rounding errors of this ratio are about 1e-16.
 """
 FLAT = 1e-12
-"""Slope of the energy along a step that counts as zero, divided by the slope at the start of the step."""
+"""Largest slope of the energy along a step that is treated as zero, divided by the slope at the start of the step."""
 
 LOADED = 1e-6
 """Smallest ratio of a tooth's force to the mean tooth force at which the tooth counts as loaded."""
@@ -146,7 +146,7 @@ def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
 
     The lead of a tooth is the length by which the tooth is ahead. Returns the common rotation of the teeth twice. The
     first value is counted from the rotation at which the tooth with the largest lead makes contact. The second value is
-    counted from zero and equals u_i - w_i for all teeth. `start` is a start value for the first value.
+    counted from zero and equals u_i - w_i for all teeth. The iteration for the first value starts from `start`.
     """
     highest: float = ahead[0]
     for lead in ahead:
@@ -159,10 +159,11 @@ def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
 
 @kernel
 def centred_rows(ahead: FloatArray, unit: float, unit_force: float, rotation: FloatArray) -> None:
-    """Compute the tooth forces with a centred sleeve, in place, and write the rotation of each row.
+    """Compute the tooth forces and the common rotation of the teeth at each rotor angle, with a centred sleeve.
 
-    On entry, `ahead` contains the interference at rest w_i of each tooth. On return, `ahead` contains the force of each
-    tooth. `unit` = T/(r_o c_t) is the scale of lengths, and `unit_force` = T/r_o is the scale of forces.
+    A row of `ahead` belongs to one rotor angle. On entry, `ahead` contains the interference at rest w_i of each tooth.
+    On return, `ahead` contains the force of each tooth, and `rotation` contains the common rotation of the teeth at
+    each rotor angle. `unit` = T/(r_o c_t) is the scale of lengths, and `unit_force` = T/r_o is the scale of forces.
     """
     psi = 1.0
     for row in range(ahead.shape[0]):

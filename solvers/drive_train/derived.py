@@ -48,7 +48,7 @@ class DerivedCoupling:
 
 @record
 class DerivedHeat:
-    """The wall responses used for both gears; `inputs.Heat` explains the wall response."""
+    """The wall response used for each gear; `inputs.Heat` explains the wall response."""
 
     wall_response: float = quantity("wall response used", "κ_1")
     wall_response_wheel: float = quantity("wall response of the wheel used", "κ_2")

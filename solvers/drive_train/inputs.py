@@ -217,7 +217,7 @@ class Shaft:
 
 @record
 class Alignment:
-    """Shaft heights of unit and machine above the feet, and temperature rises of the supports of unit and machine."""
+    """For unit and machine: the height of the shaft above the feet, and the temperature rise of the supports."""
 
     unit_height: float | None = quantity(
         "height of the unit's shaft",
@@ -463,7 +463,7 @@ class Heat:
 
 @record
 class Effects:
-    """The effects that the model takes into account; couplings act only if `shafts` is on."""
+    """The effects that the model takes into account; `coupling` has no effect if `shafts` is false."""
 
     shafts: bool = quantity(
         "shafts", default=True, text="whether shafts and bearings yield; without, couplings neither"

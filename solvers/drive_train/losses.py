@@ -21,9 +21,9 @@ def train_losses(
     """Return the losses of all parts of the unit [W].
 
     `mesh` [W] is the loss that the model of the mesh computes; `pumping` [W] is the loss that the pumping model
-    computes. If there is a heat balance, the mesh loss of the heat balance replaces `mesh`, and the losses by
-    acceleration of the oil, by windage and in other parts are added. If the loss of the mesh is not known, the total is
-    None. If the total is not smaller than the power, the efficiency is None.
+    computes. If `heat` is given, the mesh loss in `heat` replaces `mesh`. The total then also contains the losses in
+    `heat` by acceleration of the oil, by windage and by other causes. If the loss of the mesh is not known, the total
+    is None. If the total is not smaller than the power, the efficiency is None.
     """
     bearings = sum(bearing.friction_power for shaft in shafts for bearing in shaft.bearings)
     coupling = sum(result.friction_power for result in couplings)
@@ -38,7 +38,7 @@ def train_losses(
 
 
 def force_balance(unit: Unit, equilibrium: Equilibrium, torques: tuple[float, float], force: float) -> ForceBalance:
-    """Return the largest unbalanced force and the largest unbalanced moment on a shaft.
+    """Return the largest unbalanced force and the largest unbalanced moment on the two shafts.
 
     The forces on a shaft are added up in both planes. The moments are added up in both planes and about Z. In
     equilibrium all these sums are 0. `torques` [N m] drive the pinion and brake the wheel; `force` is F_bt [N]. In the
@@ -58,7 +58,7 @@ def force_balance(unit: Unit, equilibrium: Equilibrium, torques: tuple[float, fl
 
 
 def _sums(side: ShaftPorts, loads: FloatArray, reactions: list[FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """Return the sum of all forces on a shaft in each plane, and the sum of all moments about Z = 0 in each plane."""
+    """Return the sums of forces and moments on a shaft in each plane; the moments are about the point Z = 0."""
     nodal = side.loads @ loads + side.fixed
     nodes = side.model.z.size
     sums = nodal[:, :nodes].sum(axis=1) + sum(reactions)

@@ -79,7 +79,10 @@ def _film_notices(
 
 
 def load_notices(inputs: DriveTrainInputs, load: FaceLoad) -> Iterator[Notice]:
-    """Warn if the load is largest at an end of the face, if flanks lift off, or if the wall response is assumed."""
+    """Warn if the load is largest at an end of the face, or if flanks lift off.
+
+    Also warn if heat deforms the gears and the inputs do not give the wall response.
+    """
     if load.face_load_at in {0.0, 1.0}:
         message = f"the load is largest at the end y/b = {load.face_load_at:.0f} of the face"
         yield Notice("edge_load", message, "mesh.distribution.modifications.helix_slope")

@@ -201,7 +201,8 @@ def _of_both_surfaces(inputs: DriveTrainInputs, bulk: FloatArray) -> FloatArray:
 def _hottest_surface(path: ThermalPath, bulk: FloatArray) -> float | None:
     """Return the temperature of the hottest flank surface on a line [K], computed by thermal EHL.
 
-    Return None if no point of the line is loaded, or if an unsolved point may be hotter.
+    Return None if no point of the line is loaded. Also return None if an unsolved point may be hotter, or may have a
+    thinner film, than every solved point.
     """
     if set(path.status) == {"unloaded"} or unknown_points([path], [bulk]):
         return None
@@ -211,7 +212,8 @@ def _hottest_surface(path: ThermalPath, bulk: FloatArray) -> float | None:
 def _thinnest_film(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) -> float | None:
     """Return the thinnest film on all lines [m], computed by thermal EHL.
 
-    Return None if no point has a film, or if the film may be thinner at an unsolved point.
+    Return None if no point has a film. Also return None if an unsolved point may have a thinner film, or may be hotter,
+    than every solved point.
     """
     films = np.concatenate([path.minimum_film for path in paths])
     return None if np.isnan(films).all() or unknown_points(paths, bulks) else float(np.nanmin(films))

@@ -43,7 +43,7 @@ SHORTEST_ROD = 1e-3  # m; least length of the shaft, as a conductor of heat, bet
 class WarmUnit:
     """A unit at the temperatures of its heat balance.
 
-    `heat` is the result of the heat balance, `balance` holds the inputs of the heat balance.
+    `heat` is the result of the heat balance, and `balance` holds the inputs of the heat balance.
     """
 
     inputs: DriveTrainInputs
@@ -142,7 +142,7 @@ def at_temperatures(
     inputs : DriveTrainInputs
         The unit with a known oil.
     flanks, bodies : tuple of float
-        Temperatures of pinion and wheel [K].
+        Temperatures of the flanks, and temperatures of the gear bodies; first the pinion, then the wheel [K].
     films : list of float
         Film temperatures of the two bearings of the pinion, then of the two bearings of the wheel [K]; NaN for bearings
         without a film.
@@ -153,7 +153,8 @@ def at_temperatures(
     -------
     DriveTrainInputs
         The unit at these temperatures. Bearings that run in the gears' oil have the viscosities at their film
-        temperatures, and the supports of the unit have the temperature rise of the casing.
+        temperatures. If no temperature rise of the unit's supports is given, the supports have the temperature rise of
+        the casing.
     """
     mesh = inputs.mesh
     return replace(

@@ -77,7 +77,10 @@ class AlignmentOverTime:
 
 @record(kw_only=True)
 class UnitWarmUp:
-    """A warm-up: temperatures, alignment at five points in time, worst values, and the heat balance at the end."""
+    """A warm-up: temperatures, alignment at five points in time, and the heat balance at the end.
+
+    The least safety factor, the largest face load factor and the least backlash of the warm-up are also given.
+    """
 
     warm_up: WarmUp = quantity("warm-up")
     least_safety: float | None = quantity(
@@ -115,8 +118,8 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
     Raises
     ------
     InvalidInput
-        `not_asked` if the unit has no heat balance, `missing_mass` if the casing has no mass, and the errors of
-        `warm_unit`.
+        `not_asked` if the unit has no heat balance, `missing_mass` if the casing has an area but the inputs do not
+        give its mass, and the errors of `warm_unit`.
     NoSolution
         `warm_up` if the integration fails; the errors of `warm_unit`.
 
@@ -168,7 +171,7 @@ def unusual_values(inputs: WarmUpInputs, _: UnitWarmUp) -> Iterator[Notice]:
 
 
 def _derived(warm: WarmUnit) -> Derived:
-    """Return the values that the warm unit uses for inputs that were left open."""
+    """Return the values that the warm unit uses for the inputs that the user has not given."""
     spread = distribution(warm.inputs.mesh.distribution, warm.prepared.mesh.prepared, warm.equilibrium.balance)
     contact, spread, *_ = in_force(contact_of(warm.inputs), spread)
     return derived(replace(warm.inputs, mesh=contact), spread, warm.heat)
@@ -201,8 +204,9 @@ def _capacities(unit: DriveTrainInputs, warm: WarmUnit) -> Capacities:
 def _rotor(shaft: Shaft, material: Solid, solid: float, reference: float) -> float:
     """Return the heat capacity of a rotor [J/K].
 
-    Sections whose outer diameter is at least `solid` [m] carry the teeth. Their outer diameter is taken as at least
-    `reference` [m], so that the heat capacity of the teeth is included.
+    A section carries the teeth if its outer diameter is at least `solid` [m]. If the outer diameter of such a section
+    is smaller than `reference` [m], the function computes with `reference` instead, to include the heat capacity of
+    the teeth.
     """
     sections = tuple(
         (

@@ -19,8 +19,8 @@ MEASURED_WITHIN = 3.0  # K, chosen: uncertainty of a measured temperature
 class Extreme:
     """Cooling by the oil at one end of the band.
 
-    If `rewetting_share` is None, the nominal rewetting share is kept. If the temperature of a gear was measured,
-    `measured` [K] is added to this temperature; at the well cooled end, `measured` is negative.
+    If `rewetting_share` is None, the nominal rewetting share is kept. If the temperature of a gear was measured, the
+    temperature of this gear at the end of the band is the measured temperature plus the difference `measured` [K].
     """
 
     wetting_share: float
@@ -55,8 +55,9 @@ def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Net
 
     Notes
     -----
-    Eq. H21. If the temperature of a gear was measured, the wetting share is fitted to this temperature plus
-    `extreme.measured`. If no wetting share gives the required temperature, the largest or the smallest share is used.
+    Eq. H21. If the temperature of a gear was measured, the difference `extreme.measured` is added to this temperature,
+    and the wetting share is fitted to the sum. If no wetting share gives the required temperature, the largest or the
+    smallest share is used.
     """
     spray = network.spray
     if cooling.fling_off_factor is None:

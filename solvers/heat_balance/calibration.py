@@ -169,7 +169,8 @@ def _fitted(network: Network, place: int, wanted: float, drain: float | None) ->
 
     - Newton's method does not converge.
     - The wetting share lies outside the range from 0.02 to 1.
-    - The network has no equilibrium with this wetting share.
+    - The network has no equilibrium with the fitted wetting share or with the wetting share 1.
+    - In the equilibrium with the fitted wetting share, the temperature rise of the node is not `wanted`.
     """
     try:
         start = equilibrium(wetted(network, MOST_WETTING)).rises

@@ -148,8 +148,8 @@ class FlingOff:
 
     `film` [m] is the thickness of the film that the jets lay in one turn, and `conductance` [W/K] is the conductance of
     this film. `flooded` [W/K] is the conductance of a film so thick that more oil would not take more heat. `turn_film`
-    [m] is the thickness of a film that takes 90 % of the heat that such a thick film takes. `limited` is true if the
-    heat capacity of the oil flow limits `conductance`.
+    [m] is the thickness of a film whose conductance is 90 % of `flooded`. `limited` is true if `conductance` is at
+    least 98 % of the heat capacity of the oil flow; `conductance` cannot exceed this heat capacity.
     """
 
     conductance: float
@@ -182,7 +182,8 @@ def fling_off(oil: CoolingOil, teeth: TurningTeeth, flow: float, factor: float, 
 
     Notes
     -----
-    Eq. H5: G = f omega/(2 pi) A sqrt(k rho c t*) q(h0', t'), but at most rho c Q_i. For `flooded`, h0' is 50.
+    Eq. H5: G = f omega/(2 pi) A sqrt(k rho c t*) q(h0', t'), but at most rho c Q_i. `flooded` is G for h0' = 50,
+    without the limit rho c Q_i.
     """
     time = fling_off_time(oil, teeth, (flank + oil.inlet) / 2)
     length, turn = sqrt(oil.diffusivity * time), 1 / (teeth.turns * time)

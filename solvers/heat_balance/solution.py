@@ -50,7 +50,7 @@ def equilibrium(network: Network, start: FloatArray | None = None) -> Equilibriu
     Eq. H18. J is the Jacobian of the residual. The equilibrium is stable if -J is an M-matrix. This means two things:
     no element of -J off the diagonal is positive, and every node becomes warmer when every node gains a little more
     heat. If all row sums of -J are positive, there is no second equilibrium. If hot flanks get little oil, a row sum
-    may be negative; the equilibrium is then computed nevertheless.
+    may be negative. A second equilibrium is then possible, but the function does not search for it.
     """
     rises = np.zeros(network.size) if start is None else np.array(start, dtype=float)
     residual = network.residual(rises)

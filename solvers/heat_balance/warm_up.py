@@ -105,7 +105,7 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
 
 
 def _integrated(network: Network, capacity: FloatArray, begin: FloatArray, end: float) -> Any:
-    """Integrate the rises from time zero to `end`, and return the rises as a function of time."""
+    """Solve Eq. H24 from time zero to `end`, and return the temperature rises of the nodes as a function of time."""
     solution = solve_ivp(
         lambda _, rises: network.residual(rises) / capacity,
         (0.0, end),

@@ -1,6 +1,6 @@
 """Micropitting by method B of ISO/TR 15144-1, for two gear pairs: the gears of the oil test, and FZG C gears.
 
-The printed numbers for the FZG C gears include results of an FVA program.
+Some of the printed numbers for the FZG C gears are results of an FVA program.
 """
 
 from collections.abc import Callable

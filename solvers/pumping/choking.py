@@ -1,4 +1,4 @@
-"""The speeds at which the radial gaps and the axial exits become sonic."""
+"""The speeds at which the flow through the radial gaps and through the axial exits becomes sonic."""
 
 from collections.abc import Callable
 from itertools import pairwise

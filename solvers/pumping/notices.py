@@ -59,9 +59,9 @@ def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float
 
 
 def jump_notices(tables: Sequence[StrokeTable]) -> list[Notice]:
-    """Return a warning if the area of a space jumps.
+    """Return a warning if the area of a tooth space jumps at some angle.
 
-    At such a jump, the model compresses the gas although the teeth do not move.
+    The jump changes the pressure in the model although the teeth do not move.
     """
     share, angle = max(table.jump for table in tables)
     if share == 0.0:
@@ -96,7 +96,7 @@ def flow_notices(flow: Flow, largest_mach: float, largest_gauge_pressure: float)
 
 
 def net_flow_notices(model: Flow, flows: list[MassFlow]) -> list[Notice]:
-    """Return a warning about the most uncertain net flow out of an end, if the uncertainty exceeds the limit.
+    """Return a warning about the most uncertain net flow out of an end, if its uncertainty exceeds `NET_UNCERTAINTY`.
 
     The net flow is uncertain if it is a small difference between outflow and inflow.
     """
@@ -144,10 +144,7 @@ def resolution_notices(flow: Flow, uncertain: Resolution) -> list[Notice]:
 
 
 def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]:
-    """Return a warning if the speed is higher than in all published results with which the model has been compared.
-
-    The speed is too high if the tip speed or the pitch-line velocity exceeds its limit.
-    """
+    """Return a warning if tip speed or pitch-line velocity is above all published results compared with the model."""
     tip = max(pair.pinion.tip_radius, pair.wheel.tip_radius * pair.pinion.teeth / pair.wheel.teeth) * pinion_speed
     pitch_line = pair.pinion_working_radius * pinion_speed
     if tip > TIP_SPEED_SHARE * gas.sound_speed or pitch_line > PITCH_LINE_SPEED:

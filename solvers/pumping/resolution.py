@@ -98,7 +98,7 @@ def behind_jumps(resolved: Resolution, gas: Gas, flows: list[SpaceFlow], jumps: 
 
     A higher resolution does not reduce this effect. `compressed` returns the relative rise of the gas pressure that a
     jump of the logarithm of the area causes. The effect on the Mach number is that of a wave with this pressure rise.
-    If the pressure rise is as large as the gauge pressure, no result is certain.
+    If the relative uncertainty of a pressure reaches 1, the uncertainty of every result is raised to at least 1.
     """
     peak, low, mach = resolved.peak_pressure, resolved.min_pressure, resolved.axial_mach
     shares = [compressed(gas, jump) for jump in jumps]
@@ -220,7 +220,11 @@ def _mach_reach(fine: SpaceFlow, half: SpaceFlow) -> float:
 
 
 def _profiles(gas: Gas, flow: SpaceFlow) -> dict[str, FloatArray]:
-    """Return the extremes of each slice over the stroke, as gauge pressures [Pa] and temperature rises [K]."""
+    """Return two gauge pressures [Pa] and, if known, the temperature rise [K] in every slice.
+
+    The first gauge pressure is the largest in the stroke. The second is the amount by which the lowest pressure in the
+    stroke lies below the ambient pressure. The temperature rise is a mean over the stroke.
+    """
     profiles = {
         "peak_pressure": flow.peak_pressure - gas.pressure,
         "min_pressure": gas.pressure - flow.lowest_pressure,

@@ -84,7 +84,10 @@ def derived(mesh: Mesh) -> Derived:
 
 
 def _active_share(space: Space, face_width: float) -> float:
-    """Compute the largest fraction of the face width over which a tooth space is in its stroke at the same time."""
+    """Compute the largest fraction of the face width on which a tooth space is in its stroke at one instant.
+
+    In a helical gear, the stroke begins and ends at another time at each position on the face.
+    """
     limits, lag = space.table.limits, space.lag * face_width
     return min((limits.end - limits.start) / lag, 1.0) if lag > 0.0 else 1.0
 

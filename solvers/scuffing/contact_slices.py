@@ -194,8 +194,9 @@ def _beside(
 ) -> float:
     """Return the least gap [m] between the end of a stretch and the middle of the slice at this end.
 
-    `end` contains the y [m] of the end, and the step in y [m] from the end across the slice. `at_end` is the gap [m] at
-    the end. `middle` is the index of the slice at the end, and `following` is the index of the next slice.
+    `end` contains the y [m] of this end, and the change of y [m] from there to the opposite end of the slice. `at_end`
+    is the gap [m] at the end of the stretch. `middle` is the index of the slice at this end, and `following` is the
+    index of the next slice.
     """
     y, step = end
     if table.gap[middle] > table.gap[following]:

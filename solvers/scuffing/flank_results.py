@@ -63,7 +63,7 @@ def _in_part(balance: LoadBalance) -> bool:
 def tops(values: FloatArray) -> list[int]:
     """Return the indices of the largest value and of those local maxima that are nearly as large.
 
-    The local maxima are in ascending order, so that the index of the largest value is the last.
+    The indices are sorted by the values, so that the index of the largest value comes last.
     """
     edged = np.concatenate([[-np.inf], values, [-np.inf]])
     local = np.flatnonzero((values > edged[:-2]) & (values >= edged[2:]) & (values >= NEARLY * values.max()))
@@ -99,8 +99,8 @@ def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) ->
     y : ndarray
         Distances from the end that meshes first [m].
     substeps : int, optional
-        Number of substeps between neighbouring roll positions. If all contact lines are loaded over their whole
-        length, one step is used instead.
+        Number of substeps between neighbouring roll positions. This number is used only if a contact line is loaded
+        over a part of its length; otherwise there are no substeps.
 
     Returns
     -------
@@ -120,8 +120,8 @@ def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int,
     """Integrate the line load along the path from A to E by the trapezoidal rule, for every y.
 
     The rule uses the points x at which a contact line passes y, at all roll positions and substeps. If the
-    transmission error jumps at a roll position, the point is used twice: with the error before the jump and with the
-    error after the jump.
+    transmission error jumps at a roll position, the points of this roll position are used twice: with the transmission
+    error before the jump, and with the transmission error after the jump.
     """
     plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
     across = lead_gaps(form, y)

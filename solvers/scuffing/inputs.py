@@ -279,12 +279,13 @@ class Modifications:
 class Model:
     """Options of the physical model.
 
-    `tooth_stiffness` is "ishikawa" for Ishikawa's tooth. It is "parabola" for a stiffness that is a parabola along the
-    path with the same maximum. `parabola_end_ratio` is the stiffness at A and E divided by the maximum; its default
-    makes the largest loads agree with those in the paper. `contact` is "hertzian" to compute the compliance of the
-    contact for half-spaces (Weber, Johnson), or "linear" to use the paper's linear term. `section` selects the section
-    of the tooth that is used to compute the bending. `load_convention` is "exact" to use F_bn in the load balance, or
-    "paper" to use F_bt (Eq. 1).
+    `tooth_stiffness` is "ishikawa" for Ishikawa's tooth. It is "parabola" for a stiffness that varies along the path
+    as a parabola; the maximum of the parabola is the maximum of the stiffness of Ishikawa's tooth. `parabola_end_ratio`
+    is the stiffness at A and E divided by this maximum. With the default of `parabola_end_ratio`, the largest loads
+    agree with those in the paper. `contact` is "hertzian" to compute the compliance of the contact for half-spaces
+    (Weber, Johnson), or "linear" to use the paper's linear term. `section` selects the section of the tooth that is
+    used to compute the bending. `load_convention` is "exact" to use F_bn in the load balance, or "paper" to use F_bt
+    (Eq. 1).
     """
 
     tooth_stiffness: ToothModel = quantity(
@@ -486,9 +487,9 @@ class Temperatures:
 
     @property
     def surfaces(self) -> tuple[float, float] | None:
-        """Bulk temperatures of pinion and wheel [K]: the value of `flanks`, or twice `bulk` if `flanks` is None.
+        """Bulk temperatures of pinion and wheel [K], or None if `flanks` and `bulk` are both None.
 
-        The value is None if `flanks` and `bulk` are both None.
+        If only `flanks` is None, both gears have the bulk temperature `bulk`.
         """
         if self.flanks is not None or self.bulk is None:
             return self.flanks

@@ -334,10 +334,10 @@ def _settle(
     """Solve the balance of a roll position at which lines are loaded over a part of their length only.
 
     `at` contains the phase and the side of the roll position (see `RollPositions`). The start value `error` is the TE
-    [m] of slices that cover whole lines. Every pass cuts into slices only the parts of the lines that are loaded at the
-    TE of the previous pass, and solves the balance again. The load is zero at the ends of a loaded part. An error of TE
-    in one pass therefore causes only a second-order error in the next pass. Returns the `Cover` of the slices in the
-    last pass, TE [m], the relative residual, and the number of steps.
+    [m] that results if the lines are cut into slices over their whole length. Every pass cuts into slices only the
+    parts of the lines that are loaded at the TE of the previous pass, and solves the balance again. The load is zero at
+    the ends of a loaded part. An error of TE in one pass therefore causes only a second-order error in the next pass.
+    Returns the `Cover` of the slices in the last pass, TE [m], the relative residual, and the number of steps.
     """
     covers, steps, settled = 0, 0.0, False
     phase, side = at

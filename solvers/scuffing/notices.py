@@ -124,8 +124,8 @@ def load_notices(balance: LoadBalance) -> list[Notice]:
     There is a warning for each of these conditions:
 
     - There is no load.
-    - The load is so small that it is interpolated only roughly.
-    - The loaded path reaches a base circle, where the pressure has no maximum.
+    - The load is so small that the interpolation of loads between the roll positions is inaccurate.
+    - The loaded path reaches a base circle, where the pressure grows without bound.
     - The contact is too wide for the compliance law.
     """
     notices = []

@@ -64,7 +64,7 @@ class LengthCurves:
 
 @record
 class ContactLines:
-    """Total length of the contact lines [m]; extremes and mean are computed in closed form."""
+    """Shortest, longest and mean total length of the contact lines [m], computed in closed form."""
 
     min_length: float = quantity("shortest contact length", "L_min", XUE, unit="mm")
     max_length: float = quantity("longest contact length", "L_max", XUE, unit="mm")

@@ -180,11 +180,12 @@ def _lines(
     """Return the list of lines to check, and the profile line through the hottest point.
 
     The list contains the feature line. It also contains the profile line if the profile line is clearly hotter than the
-    feature line (`AS_HOT`). The second result is always the profile line, or None if `hottest` is None.
+    feature line (`AS_HOT`). The second result is the profile line, even if the list does not contain it; the second
+    result is None if `hottest` is None.
 
-    Each line has equidistant points and its own hottest point. The feature line also has the point with the thinnest
-    film (Dowson and Higginson). These additional points make the largest flash temperature and the thinnest film
-    independent of the number of points.
+    Points are added to the equidistant points of a line, so that the extremes do not depend on the number of points. On
+    the profile line, the hottest point is added. On the feature line, up to three points are added: the hottest point,
+    the point with the thinnest film (Dowson and Higginson), and a loaded point that is too near a base circle.
     """
     line_at = partial(_line_at, inputs.distribution, distribution, film_at)
     even = np.linspace(0.0, 1.0, inputs.path_points)
@@ -211,9 +212,9 @@ def _lines(
 def _or_along(distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Peak:
     """Return `thinnest`, or the thinnest film on the profile line `line` if this film is thinner.
 
-    Both films are computed by the formula of Dowson and Higginson. A spur pair and its mirror image must have the same
-    thinnest film, but it is possible that the profile line is checked in only one of the two pairs. The function is
-    therefore called whether the profile line is checked or not.
+    Both films are computed by the formula of Dowson and Higginson. The function is also called if the profile line is
+    not checked. Otherwise a spur pair and its mirror image could have different thinnest films, because the profile
+    line may be checked in only one of the two pairs.
     """
     if np.isnan(line.film).all():
         return thinnest

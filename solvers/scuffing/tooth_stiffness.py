@@ -412,8 +412,8 @@ def linear_contact_compliance(pinion: Solid, wheel: Solid) -> float:
 def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid) -> Member:
     """Return a gear of the pair with the bending compliance of its teeth.
 
-    The bending is computed with the tooth of `section`, the gear that `section_gear` returns for `gear`. The load point
-    has the same height above the reference circle in both gears.
+    The bending is computed for a tooth of `section`, the gear that `section_gear` returns for `gear`. On this tooth,
+    the load acts at the same height above the reference circle as on a tooth of `gear`.
     """
     radius = np.hypot(gear.base_radius, roll_length)
     points = load_points(section, section.reference_radius + radius - gear.reference_radius)
@@ -429,7 +429,7 @@ def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tu
     `depth` of the load point of gear i in the transverse section (see `LoadPoints`).
     This compliance equals offset - slope ln w, where w is the load.
     The contact contributes offset / slope - ln w to omega. The docstring of this module defines omega. The contribution
-    decreases as the load increases. The least contribution is the contribution if d_i is `SHALLOWEST` b_H for both
+    decreases as the load increases. The contribution is least if b_H is so large that d_i is `SHALLOWEST` b_H for both
     gears.
     """
     modulus = reduced_modulus(members[0].material, members[1].material)

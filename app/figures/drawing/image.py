@@ -48,8 +48,9 @@ def draw(figure: Figure, image_format: str, theme: ThemeName = "light") -> bytes
 
 
 def draw_for_report(figure: Figure) -> tuple[Figure, bytes]:
-    """Draw a figure as svg, if possible in the width of a report's column. Return the figure as drawn, and the svg.
+    """Draw a figure as svg, if possible in the width of a report's column. Return the figure and the svg.
 
+    If the svg has the width of the column, the returned figure is the copy with `narrow` set to True.
     The figure keeps its usual width if its panels stand side by side, or if its texts would be cut off or overlap in
     the width of the column.
     """
@@ -74,8 +75,8 @@ def _written(sheet: Sheet, title: str, image_format: str) -> bytes:
 class Place(NamedTuple):
     """Position of the axes of a panel in the image.
 
-    `box` holds left, top, width and height as fractions of the image. `x` describes the abscissa, and `y` describes the
-    ordinate: the two ends of the axis, and True if the axis is logarithmic.
+    `box` holds left, top, width and height as fractions of the image. `x` holds three items: the
+    values at both ends of the abscissa, and True if the abscissa is logarithmic. `y` holds the same for the ordinate.
     """
 
     panel: Panel
@@ -109,9 +110,9 @@ def _width(figure: Figure) -> float:
 
 
 def _letters(figure: Figure, length: int) -> int:
-    """Return the number of characters per line of text.
+    """Return the number of characters that fit into a line of text in this figure.
 
-    `length` is the number of characters per line in a figure of the usual width.
+    `length` is the number of characters that fit into a line in a figure of the usual width.
     """
     return int(length * _width(figure) / WIDTH)
 

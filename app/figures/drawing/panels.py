@@ -471,8 +471,8 @@ def _point_of(text: Text) -> Values:
 def _lead(axes: Axes, text: Annotation, size: BboxBase, place: tuple[float, float], point: float) -> list[Path]:
     """Draw a thin line from a point to its text if the text is far from the point. Return the lines that are drawn.
 
-    `place` is the position of the text in pixels, relative to the point. `point` is the size of a typographic point in
-    pixels.
+    `place` is the position of the text in pixels, relative to the point. `point` is the typographic unit of 1/72
+    inch, in pixels.
     """
     half = size.width / 2, size.height / 2
     x, y = (copysign(max(abs(off) - reach, 0.0), off) / point for off, reach in zip(place, half, strict=True))
@@ -500,8 +500,8 @@ def _places(kind: str, size: BboxBase, room: BboxBase, point: float) -> Iterator
     """Yield positions to try for a text, each position with a penalty.
 
     A text names a point, a horizontal line (`row`) or a vertical line (`column`). Positions are in pixels, relative to
-    this point or to the end of this line. The penalty grows with the distance. `point` is the size of a typographic
-    point in pixels.
+    this point or to the end of this line. The penalty grows with the distance. `point` is the typographic unit of
+    1/72 inch, in pixels.
     """
     gap = (ROW_REACH if kind == "row" else LEAST_REACH) * point
     if kind == "row":

@@ -48,10 +48,10 @@ def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def _around(which: str, value: float) -> tuple[float, float]:
-    """Return the ends of an axis of the map.
+    """Return the ends of the axis `which` of the map.
 
-    If the value would lie outside the usual ends, the ends are moved outwards. A value that is infinite or zero does
-    not move the ends.
+    If the coupling has a `value` outside the usual ends of the axis, the ends are moved outwards. If `value` is
+    infinite or zero, the usual ends are returned.
     """
     low, high = MAP_ENDS[which]
     if not 0.0 < value < inf:
@@ -154,8 +154,8 @@ def orders(_: CouplingInputs, result: OrbitResult) -> Figure:
 def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figure:
     """Draw the least load capacity and the largest contact overlap over the crowning ratio.
 
-    At each crowning ratio, the curves show the least load capacity and the largest contact overlap within the range of
-    misalignment. The feasible range of the crowning ratio is shaded, and the recommended ratio is marked.
+    These are the least and the largest value within the range of misalignment. The feasible range of the crowning ratio
+    is shaded, and the recommended ratio is marked.
     """
     scan, best = result.scan, result.crowning_ratio
     ratio, capacity = scan.crowning_ratio, scan.min_load_capacity_coefficient

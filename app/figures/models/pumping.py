@@ -67,7 +67,8 @@ def temperature_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 def _maps(inputs: PumpingInputs, result: PumpingResult, name: str, scale: Scale, *critical: Level) -> list[Panel]:
     """Return a map of the quantity `name` over face and angle for the tooth spaces of each gear.
 
-    The greatest value is marked, and in maps of a ratio also the least. All maps have the same scale of colours.
+    The greatest value of each map is marked. In maps of a ratio, the least value is marked too. All maps have the same
+    scale of colours.
     """
     fields = {gear: space.field for gear, space in spaces(result)}
     grids: list[Values] = [getattr(field, name) for field in fields.values()]
@@ -106,9 +107,10 @@ def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves)
 
     Lines show the pressure and the Mach number at which the flow becomes sonic. Further lines show the choking speeds.
 
-    The exit Mach number is the Mach number after an expansion to ambient pressure. In the gas-dynamics model, the gas
-    in the outermost slice can itself be supersonic. The Mach number in this slice is then drawn instead. This Mach
-    number is smaller, so the curve bends where the gas becomes supersonic.
+    The exit Mach number is the Mach number after an expansion to ambient pressure. But if the gas in the outermost
+    slice is supersonic, which only the gas-dynamics model can compute, the Mach number in this slice is drawn. The Mach
+    number in the slice is smaller than the Mach number after the expansion. The curve therefore bends at the speed at
+    which the gas in the slice becomes supersonic.
     """
     critical, mach, peak = critical_ratio(inputs.setup), curves.exit_mach, curves.peak_pressure_ratio
     clearances = [Level(critical, f"clearances sonic, {number(critical)}", limit=True)]
@@ -243,8 +245,9 @@ def mass_flow(_: PumpingInputs, result: PumpingResult) -> Figure:
     """Draw the mass flows of the tooth spaces.
 
     Three bars belong to each end of the face: outflow, inflow and net outflow. For radial clearances and grooves, only
-    the net outflow is drawn. The last bar is the sum of two further mass flows: the mass lost between two strokes, when
-    ambient gas replaces the gas in a slice, and the flow from slices in their stroke to slices outside their stroke.
+    the net outflow is drawn. The last bar is the sum of two parts. The first part is the mass that slices lose between
+    two strokes, because ambient gas replaces the gas in these slices. The second part is the mass that flows from
+    slices in their stroke to slices outside their stroke.
     """
     exits = {gear: _exits(space) for gear, space in spaces(result)}
     still = all(abs(row.value) < NO_FLOW for rows in exits.values() for row in rows)

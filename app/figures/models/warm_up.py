@@ -23,7 +23,8 @@ HUES = {
 def temperatures(_: WarmUpInputs, result: UnitWarmUp) -> Figure:
     """Draw the temperatures of all nodes over time.
 
-    Also draw the difference between the temperatures of the two bodies, with a mark at the greatest difference.
+    A second panel shows how much hotter the pinion's body is than the wheel's body. A mark shows the greatest
+    difference.
     """
     course = result.warm_up
     curves, time = course.curves, axis(WarmUpCurves, "time")

@@ -182,9 +182,9 @@ def _kept(http: Request, path: str) -> Asked:
 
 
 async def _shown(http: Request, asked: Asked, view: Callable[..., views.Shown], *arguments: Any) -> views.Shown:
-    """Return a view of a case that a worker makes.
+    """Let a worker make a view of a case, and return the view.
 
-    Keep the answers that the worker used, so that other views of the case can reuse these answers.
+    The service keeps the answers that the worker used, so that other views of the case can reuse these answers.
     """
     shown: views.Shown = await http.app.state.pool.calculate(http, view, asked, *arguments)
     for key, content in shown.keep.items():
@@ -242,8 +242,8 @@ def path_of(http: Request) -> str:
 def printed_host(http: Request) -> str:
     """Return scheme and host for printed reports, or an empty text if the host is not to be printed.
 
-    The host is printed if it is in the settings or is this computer. Any other host comes from the client alone and
-    could lead the reader of a report to another service.
+    The host comes from the request, so a client can state any host. Only the hosts in the settings and this computer
+    are printed, because another host could lead the reader of a report to another service.
     """
     trusted = {*http.app.state.settings.hosts, "localhost", "127.0.0.1", "::1"}
     is_trusted = http.url.netloc in trusted or http.url.hostname in trusted

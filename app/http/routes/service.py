@@ -48,13 +48,16 @@ async def show_example(name: Annotated[str, Path(description="name of the exampl
 
 @router.get("/healthz")
 async def healthz() -> Health:
-    """Return `ok` if the service answers."""
+    """Return `ok`, which shows that the service is running."""
     return Health()
 
 
 @router.get("/readyz", responses=documented(503))
 async def readyz(http: Request) -> Readiness:
-    """Return `ok` if all calculations are ready. Otherwise, answer 503 at once, with the progress of the warm-up."""
+    """Return `ok` if all calculations are ready and a worker is alive. Otherwise, answer 503 at once.
+
+    If calculations are not ready, the answer states how far the solvers are compiled.
+    """
     start_up, pool = http.app.state.start_up, http.app.state.pool
     start_up.require()
     if pool.alive <= 0:

@@ -49,7 +49,7 @@ async def planned(http: Request, planner: Callable[[int, float], Any], most: int
 
 
 async def begun(http: Request, study: Study, progress_s: float = PROGRESS_S) -> tuple[Lines, Clock]:
-    """Begin a study, and return the generator of its result lines and its clock.
+    """Begin a study. Return a generator of the result lines, and the clock of the study.
 
     A result line is one object of the streamed answer. The clock holds the running time of the study and the number of
     solved points. The study must already be counted among the running studies.

@@ -88,8 +88,8 @@ def texts_of(controls: Iterable[Control], body: Any) -> dict[str, str]:
 def control_at(controls: Sequence[Control], path: str) -> str:
     """Return the name of the control at which an error of the request body is shown. `path` is the place of the error.
 
-    This is the control that sets the part of the body at `path`, or else the nearest part that encloses it. If no
-    control sets such a part, return the path. If several controls set the same part, the last of these controls counts.
+    If no control sets the part of the body at `path`, use the control that sets the nearest enclosing part. If no
+    control sets an enclosing part, return `path`. If several controls set the same part, use the last one.
     """
     parts = path.split(".")
     names = {control.path: control.name for control in controls}

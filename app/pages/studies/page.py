@@ -71,7 +71,7 @@ class Table(NamedTuple):
 
     @property
     def right(self) -> list[bool]:
-        """Whether each of the columns contains numbers. Columns of numbers are aligned to the right."""
+        """One boolean per column: True if the column contains numbers and is therefore aligned to the right."""
         return [isinstance(heading, Number) for heading in self.head]
 
 
@@ -108,7 +108,7 @@ class StudyPage(ABC):
         Template of the result.
     outputs
         Preferred outputs. If the user chooses no output, the page shows the first preferred output that the answer has.
-        If the answer has none of the preferred outputs, the page shows the first headline.
+        If the answer has none of the preferred outputs, the page shows the first headline number.
     grows
         Whether the page shows a result while the study runs. If not, the page shows only the progress until the study
         has ended.
@@ -175,7 +175,7 @@ class StudyPage(ABC):
     def given(self) -> dict[str, Any]:
         """Return the parts of the body that the declared controls set.
 
-        An empty control sets its default value.
+        If a control is empty, the part of the body that it sets gets the default value of the control.
         """
         return body_of(self.declared(), self.views)
 
@@ -187,7 +187,7 @@ class StudyPage(ABC):
 
     @property
     def calculation(self) -> Calculation:
-        """The calculation of the case that is studied."""
+        """The calculation to which the case of the study belongs."""
         return self.asked.calculation
 
     @property

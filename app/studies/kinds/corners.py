@@ -125,7 +125,7 @@ class UnitPage(StudyPage):
 
     @cached_property
     def uncertain(self) -> dict[str, Axis]:
-        """Axes of the uncertain inputs with their usual values, by the name of the input.
+        """Study axes with the usual values of the uncertain inputs; the keys are the names of the inputs.
 
         The dictionary is empty if the request is invalid.
         """

@@ -311,7 +311,7 @@ def next_place(start: Sequence[float], told: Sequence[list[float] | None], most:
     def scaled(place: FloatArray) -> FloatArray:
         """Return the scaled objectives at a point.
 
-        `place` holds the coordinates of the point. The last item of `place` is the level and is ignored.
+        `place` holds the coordinates of the point and, as its last item, the level. The level is not used here.
         """
         name = _name(place[:-1])
         if name not in evaluated:
@@ -579,7 +579,8 @@ def _gap(ground: Case, case: Case) -> dict[str, Figure]:
     """Return the figure of the gap between the flanks over the face.
 
     Solid lines show the gap with the correction to grind, and dashed lines the gap with the correction as entered. In
-    both calculations, the uncertain inputs have the values as entered. The result is empty if a gap is not available.
+    both calculations, the uncertain inputs have the values as entered. If one of the two
+    calculations has no such figure, return an empty dictionary.
     """
     try:
         own, given = (GAP.figure(unit_case.request, unit_case.response) for unit_case in (ground, case))

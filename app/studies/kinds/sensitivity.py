@@ -58,8 +58,9 @@ class SensitivityRequest(StudyRequest):
 class Perturbation:
     """An input, its value, and the step by which the value is moved.
 
-    A step that is the tolerance of the input may be so large that the output does not change linearly over the step.
-    `half` is then half the step, and shows by comparison whether the slope changes. For other steps, `half` is None.
+    If the step is the tolerance of the input, the step may be too large for a linear change of the output. To check
+    this, the slope over the step is compared with the slope over `half`, which is half the step. If the step is not the
+    tolerance, `half` is None.
     """
 
     leaf: Leaf
@@ -99,7 +100,7 @@ def perturbation(leaf: Leaf, value: float) -> Perturbation:
 
 
 def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line:
-    """Compute the derivative of an output with respect to an input, and the change of the output by one step.
+    """Compute the derivative of an output with respect to an input, and the change of the output per step of the input.
 
     `outputs` maps each value of the input to the value of the output, or to None if there is no answer. The items of
     the result are:
@@ -109,18 +110,21 @@ def differences(moved: Perturbation, outputs: dict[float, float | None]) -> Line
     `elasticity`: the change of the output in per cent if the input changes by 1 %. It is None if the input or the
     output is zero, if the unit of the input is degrees Celsius, or if there is no derivative.
     `step`: the step of the input.
-    `change`: the change of the output by one step upwards, computed with the steeper of the two one-sided slopes.
+    `change`: the change of the output if the input is raised by one step, computed with the steeper of the two
+    one-sided slopes.
     `kink`: True if the two one-sided slopes differ by more than a tenth; None if one of these slopes is missing.
     `curved`: True if the derivative over the step and the derivative over half the step differ by more than a tenth;
     None if there is no half step.
+
+    `kink` and `curved` are False if one step changes the output by at most `NOISE` times the output.
     """
     base, step, half = outputs[moved.value], moved.step, moved.half
 
     def slope(below: float, above: float) -> float | None:
         """Return the slope of the output between two values of the input.
 
-        `below` and `above` are the differences of these values from the value in the case. If there is no answer at one
-        of these values, the value in the case is used instead.
+        The two values are the value of the input in the case plus `below` and plus `above`. If there is no answer at
+        one of the two values, the value of the input in the case takes the place of this value.
         """
         places = [moved.value + offset for offset in (below, 0, above)]
         pairs = [(place, value) for place in places if (value := outputs.get(place)) is not None]
@@ -157,10 +161,10 @@ class Sensitivity(Study):
     - 1 K for a temperature without a tolerance
     - 1 % of the value for all remaining inputs
 
-    `change` is the change of the output by one step of the input. `elasticity` is the change of the output in per cent
-    if the input changes by 1 %. `kink` is true if the slopes below and above the value of the input differ by more than
-    10 %. `curved` is true if the derivative over the step and the derivative over half the step differ by more than
-    10 %; it is null for integers and for inputs without a tolerance.
+    `change` is the change of the output if the input is raised by one step. `elasticity` is the change of the output in
+    per cent if the input changes by 1 %. `kink` is true if the slopes below and above the value of the input differ by
+    more than 10 %. `curved` is true if the derivative over the step and the derivative over half the step differ by
+    more than 10 %; it is null for integers and for inputs without a tolerance.
     """
 
     path = "/v1/sensitivity"

@@ -171,10 +171,7 @@ class SpectrumRequest(StudyRequest):
 
 
 class Scuffing(NamedTuple):
-    """Names of two results in the answer of an endpoint: the contact temperature and the scuffing temperature.
-
-    Both names are dotted paths in the answer.
-    """
+    """Dotted paths of the contact temperature and the scuffing temperature in the answer of an endpoint."""
 
     contact: str
     limit: str
@@ -532,7 +529,7 @@ def _column(calculation: Calculation, heading: str) -> Column:
 
     A heading is "name", "share", the path of a field, the last part of such a path, or the label of a field in the
     form. A unit may follow the label. Raises Unprocessable if the heading fits several fields. If the heading fits no
-    field, it is used as the path, so that the study reports an unknown path.
+    field, the heading is used as the path; the study then reports an unknown path.
     """
     plain = heading.lower()
     if leaf_at(calculation.request, heading) or plain in {NAME, SHARE}:
@@ -628,12 +625,12 @@ TOLERANCE = (
 )
 """The controls of a tolerance, with only the last parts of their names; `_tolerance` adds the first parts.
 
-In the form, the user enters the mean and the width of every distribution. The path of the width is `deviation`.
+The paths `mean` and `deviation` hold the typed mean and the typed width, whatever the distribution is.
 """
 STATED = {"normal": ("mean", "deviation"), "lognormal": ("median", "factor")}
-"""Names of the two parameters of a distribution that receive the mean and the width from the form.
+"""For each distribution, the parameter that is set to the typed mean and the parameter that is set to the typed width.
 
-Distributions not listed here have the parameters `min` and `max`. The triangular distribution also has `mode`.
+The other distributions have the parameters `min` and `max`; the triangular distribution also has `mode`.
 """
 
 
@@ -799,9 +796,9 @@ class SpectrumPage(StudyPage):
     def _limits(self, given: dict[str, Any]) -> list[dict[str, Any]] | None:
         """Return a list with the limit of the output, or an empty list if the output has no limit.
 
-        The limit is the limit that the user typed, otherwise the usual limit of the output. If the user typed no limit
-        and the scuffing temperature is the default limit, return None, because the study adds this limit itself. Raises
-        Unprocessable if the user typed a deviation but no value.
+        If the user typed no limit, the usual limit of the output is used; but if this usual limit is the scuffing
+        temperature, return None, because the study then adds the limit itself. Raises Unprocessable if the user typed a
+        deviation but no value.
         """
         view, scatter, value = self.output.view, given.get("deviation"), given.get("value")
         if value is None and view.bound and isinstance(view.limit, int | float) and not self._assumes_limit:
@@ -984,7 +981,7 @@ class SpectrumPage(StudyPage):
     def _outputs_table(self, end: Line) -> Table:
         """Return a table with one row per output: the mean over the operating time, and the extremes.
 
-        An extreme is a link to the machine and the case in which the extreme occurs.
+        Each extreme is printed as a link that opens the machine and the case with this extreme.
         """
         rows = []
         for leaf in self.study.outputs:
@@ -1014,7 +1011,7 @@ def _deviation(value: float | None, unit: str | None, digits: int) -> str:
 
 
 def _suggested(calculation: Calculation, case: dict[str, Any]) -> str:
-    """Return a table of cases that the user can change. It has two rows: the case itself, and the case at half load."""
+    """Return a table for the user to change: one row with the load of `case`, and one row with half of this load."""
     full = {path: value for path in USUAL if isinstance(value := value_at(case, path), int | float)}
     half = {path: value / 2 if "power" in path or "torque" in path else value for path, value in full.items()}
     return table_of(

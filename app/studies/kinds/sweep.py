@@ -468,7 +468,10 @@ class SweepPage(StudyPage):
         return tuple(groups)
 
     def shows(self) -> tuple[FieldView, ...]:
-        """Return the menu in which the user chooses whether the least or the greatest value of the output is best."""
+        """Return the menu with which the user states the best value of the output.
+
+        The best value is the least or the greatest value. If the user chooses neither, the output decides.
+        """
         ends = (("", "by the output"), ("least", "least"), ("greatest", "greatest"))
         return (self.field("best", "the best is", options=ends),)
 
@@ -506,7 +509,7 @@ class SweepPage(StudyPage):
     def _grid(self, received: list[Line]) -> Grid:
         """Return the data of the figures.
 
-        The output is NaN at points without solution and at points that have not yet arrived.
+        The values of the study's output are NaN at points without solution and at points that have not yet arrived.
         """
         points = self.study.points
         outputs = np.full(points.total, nan)
@@ -569,7 +572,7 @@ class SweepPage(StudyPage):
         return self.address(self.study.points.overrides(index))
 
     def _script(self, received: list[Line], figure: Figure) -> str:
-        """Return the data with which the script of the page opens the case at the mouse pointer, as JSON.
+        """Return the data for the script of the page, as JSON. The script opens the case at the mouse pointer.
 
         The result is empty if the form has no field for one of the axes.
         """

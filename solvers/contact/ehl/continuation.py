@@ -55,8 +55,8 @@ class Resolution:
 class Budget:
     """Budget for Newton steps. Its unit is the cost of one step at 121 x 21 nodes.
 
-    The field `remaining` holds the cost that may still be spent, and `spent` holds the number of steps taken so far. A
-    budget can be a part of a larger budget. The field `of` then holds the larger budget, and every cost is deducted
+    The field `remaining` holds the part of the budget that is left, and `spent` holds the number of steps taken so far.
+    A budget can be a part of a larger budget. The field `of` then holds the larger budget, and every cost is deducted
     from both budgets.
     """
 
@@ -65,7 +65,7 @@ class Budget:
     of: "Budget | None" = None
 
     def part(self, most: float = inf) -> "Budget":
-        """Return a budget of at most `most` units. Its costs are also deducted from this budget."""
+        """Return a part of this budget, of at most `most` units. Costs of the part are deducted from both budgets."""
         return Budget(min(most, self.remaining), of=self)
 
     def steps(self, resolution: Resolution, nodes: int) -> int:
@@ -107,10 +107,10 @@ def price(resolution: Resolution, nodes: int) -> float:
 class Attempt:
     """Result of one attempt to solve a contact.
 
-    `state` is the last state, and `grid` is its mesh. `converged` tells whether the state has converged. `stage` is the
-    stage that the solution reached. `eyring_stress` has a value only if the attempt raised the Eyring stress in steps,
-    and one of the steps failed. The value is the stress of the last successful step [Pa], or 0 if the first step
-    failed.
+    `state` is the last state, and `grid` is its mesh. `converged` tells whether the state has converged. `stage` is
+    "coupling" if the last iteration also solved for the temperatures, and otherwise "isothermal". `eyring_stress` has a
+    value only if the attempt raised the Eyring stress in steps, and one of the steps failed. The value is the stress of
+    the last successful step [Pa], or 0 if the first step failed.
     """
 
     grid: Grid
@@ -212,7 +212,7 @@ def _dry_state(grid: Grid, resolution: Resolution) -> State:
 def _climb(problem: Problem, resolution: Resolution, start: Attempt, levels: Sequence[int], budget: Budget) -> Attempt:
     """Solve on one mesh after the other, from the coarsest to the finest.
 
-    On every mesh except the finest, a solution that has nearly converged is enough.
+    Only the solution on the finest mesh has to meet the tolerances `TIGHT`; on the other meshes `LOOSE` is enough.
     """
     attempt = start
     if not resolution.thermal and len(levels) == 1:

@@ -628,7 +628,10 @@ def _intervals(m: int) -> tuple[Numbers, float]:
 
 
 def _half_way(layers: Numbers) -> Numbers:
-    """Return, for every interval (n, m), the sum of the values of all intervals below plus half of its own value."""
+    """Return, for every interval (n, m), the sum of the values from surface 1 to the middle of the interval.
+
+    This sum contains half of the value of the interval itself.
+    """
     return np.asarray(np.cumsum(layers, axis=1) - 0.5 * layers)
 
 
@@ -654,7 +657,7 @@ def _layers(psi: Numbers) -> Numbers:
 def _edges(psi: Numbers) -> Numbers:
     """Return the stream function (n, k + 1) half way between every column and the next, at the edges of the cells.
 
-    After the last column there is no next column; the last row contains the stream function of the last column.
+    The last column has no next column. For the last column, the results are the values of this column itself.
     """
     layers = _layers(psi)
     return np.asarray(0.5 * (layers + np.concatenate([layers[1:], layers[-1:]])))

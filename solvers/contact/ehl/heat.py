@@ -147,7 +147,7 @@ def surface_history(problem: Problem, i: int, surface_matrix: FloatArray, surfac
     surface_matrix : FloatArray
         Matrix Wt (n, n).
     surfaces : Surfaces
-        Heat fluxes; receives `history` and `gain` of column i.
+        Heat fluxes; `walls` receives the flash temperatures and the gains of column i.
 
     Notes
     -----
@@ -260,7 +260,7 @@ def column_residual(i: int, temperature: FloatArray, g: float, h: float, film: F
     film : Film
         Stress and shear rate of the columns.
     heat : Heat
-        Exchange of the columns; receives the residual.
+        Heat that the cells exchange; receives the residual, and the heat of shear and of compression in column i.
 
     Notes
     -----
@@ -320,9 +320,10 @@ def column_slopes(
     mid-film stress tau_m. The first right-hand side is the derivative with respect to tau_m. The other right-hand sides
     are the negative derivatives with respect to p, G = h dp/dx and h. These three include the effect of p, G and h on
     tau_m.
-    The heat that shear generates in an interval is stress times rate. This heat depends on temperature and p through
-    the viscosity. This heat also depends on the stress, and a change of the mid-film stress tau_m changes the stress in
-    all intervals.
+
+    The heat that shear generates in an interval is stress times rate. Temperature and p change this heat because they
+    change the viscosity. A change of tau_m changes this heat in all intervals because it changes the stress in all
+    intervals.
     """
     shear, mid, column, convection, last = film.shear, film.mid, heat.column, heat.convection, temperature.shape[1] - 1
     lower, upper, responses, t = column.lower, column.upper, column.responses, temperature
@@ -356,7 +357,7 @@ def column_slopes(
 def _scale_walls(i: int, inertia: float, heat: Heat) -> None:
     """Turn the heat balances of the half cells at both walls into equations for the surface temperatures.
 
-    The balances contain the artificial inertia of a whole cell. Half of this inertia is subtracted.
+    The balances of these half cells contain the artificial inertia of a whole cell, so half of it is subtracted.
     """
     column, convection, responses, walls = heat.column, heat.convection, heat.column.responses, heat.surfaces.walls[i]
     for side in range(2):

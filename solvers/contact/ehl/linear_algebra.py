@@ -1,7 +1,7 @@
 """Dense linear algebra for systems of about a hundred unknowns: LU decomposition, products, a few steps of GMRES.
 
 For systems of this size, starting the threads of a BLAS takes up to ten times as long as the arithmetic. The functions
-take row indices, because creating views of rows would also take as long as the arithmetic.
+take the indices of rows instead of views of rows, because the creation of a view takes as long as the arithmetic.
 """
 
 import numpy as np

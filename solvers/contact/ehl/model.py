@@ -62,11 +62,7 @@ def solve(inputs: LineContactInputs) -> LineContactResult:
 
 
 def resolution_for(inputs: LineContactInputs) -> Resolution:
-    """Return the resolution of a contact.
-
-    The resolution contains the numbers of nodes, the film thickness for which the mesh is graded, and the temperature
-    of the isothermal film from which a thermal solution starts.
-    """
+    """Return the resolution of a contact; the fields are explained in `Resolution`."""
     model = inputs.model
     return Resolution(
         gap=expected_gap(inputs),
@@ -150,11 +146,11 @@ def _read(
 
 
 def _failed_criterion(attempt: Attempt, result: LineContactResult) -> Stage | None:
-    """Return None if a converged state passes all checks, otherwise the stage to report.
+    """Return the stage to report if a converged state fails a check, or None if the state passes all checks.
 
-    If the pressure does not carry the load, the stage is the stage at which the iteration ended. If the heat is not
-    balanced, the stage is `heat_balance`. If the temperatures fail the check of `refinement.departure`, the stage is
-    `verification`.
+    If the pressure does not carry the load, the result is the stage at which the iteration ended. If the heat is not
+    balanced, the result is "heat_balance"; this check is omitted if all temperatures are nearly equal. If the
+    temperatures fail the check of `refinement.departure`, the result is "verification".
     """
     convergence, heat = result.convergence, result.heat
     if convergence.load_error >= WORST_LOAD:

@@ -172,10 +172,10 @@ def include_temperature(work: Work) -> None:
 def add_temperature_changes(
     work: Work, cavitated: BoolArray, step: FloatArray, given: FloatArray, residual: FloatArray
 ) -> None:
-    """Add to `residual` the effect of a temperature step on the balance of mass.
+    """Add to `residual` the effect of the temperature changes `step` - `given` on the balance of mass.
 
-    Only the difference between `step` and `given` is added. `given` is the part of the temperature step that responds
-    to the pressure, and the derivatives of ln A and B by the pressure already contain its effect.
+    `given` holds the temperature changes that the step in (P, H0) causes at fixed upstream temperatures. The
+    derivatives of ln A and B by p, G and h already contain the effect of `given`.
     """
     n, nodes = step.shape
     log_a, b = np.zeros(n), np.zeros(n)
@@ -221,7 +221,7 @@ def transport_response(
     step_t: FloatArray,
     change: FloatArray,
 ) -> None:
-    """Compute how the heat transport between columns changes a step (n + 1,) in (P, H0).
+    """Compute how (P, H0) respond to the heat transport between columns that a step (n + 1,) in (P, H0) causes.
 
     Oil and surfaces carry heat from column to column. The factored Jacobian neglects this transport. The function
     computes the residuals that the transport causes if the step is taken, solves the factored system for these

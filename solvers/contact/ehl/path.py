@@ -80,10 +80,10 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
 
     Notes
     -----
-    If the contact before was solved, a contact starts from extrapolated pressures, temperatures and separation. If this
-    contact does not converge from this start within a few steps, the contact is solved as if it were alone. If this
-    fails as well, the contact has no result, and the next contacts are still solved. After many consecutive failures
-    each contact is given fewer steps, until a contact converges again.
+    If the previous contact was solved, the iteration for a contact starts from extrapolated pressures, temperatures and
+    separation. If this iteration does not converge within a few steps, the contact is solved as if it were alone. If
+    that fails as well, the contact has no solution, and the next contacts are still solved. After many consecutive
+    failures each contact is given fewer steps, until a contact converges again.
     """
     for inputs in contacts:
         check(inputs)
@@ -124,7 +124,7 @@ def _attempts(constants: Problem, resolution: Resolution, walk: _Walk, spent: Bu
 def _guess(states: Sequence[State]) -> State:
     """Extrapolate the states of earlier contacts to the next contact, and limit the result to physical values.
 
-    At nodes where the film of the last contact is broken, the film stays broken.
+    At nodes where the film of the last contact is broken, the film of the next contact is also assumed to be broken.
     """
     last = states[-1]
     film = _extrapolated(np.array([np.append(state.pressure, state.separation) for state in states]))
@@ -143,8 +143,8 @@ def _extrapolated(rows: FloatArray) -> FloatArray:
     """Extrapolate `rows` (m, ...) to the next row by Newton's backward differences.
 
     The result is the last row plus the differences of order 1, 2 and so on. The sum ends before the first order whose
-    difference is not larger than the difference of the next order. This order would not have improved a prediction of
-    the last row from the earlier rows.
+    difference is not larger than the difference of the next order. The reason is a test with the known last row: if the
+    earlier rows predict the last row with differences up to order k, the error is the difference of order k + 1.
     """
     differences = [rows[-1]]
     while len(rows) > 1:

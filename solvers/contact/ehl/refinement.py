@@ -1,4 +1,4 @@
-"""Accuracy of a finished contact: estimated error due to the mesh, and independent check of the temperatures.
+"""Accuracy of a solved contact: estimated error due to the mesh, and independent check of the temperatures.
 
 The error due to the mesh is estimated from a solution on half as many nodes. The check of the temperatures calls none
 of the functions that solve the contact. It uses reported values only: curves, field and inputs in SI units. The check
@@ -172,11 +172,14 @@ class Comparison:
     kinks: dict[str, float]
 
     def smooth_error(self) -> MeshError:
-        """Return the error without the effect of spikes and kinks. This error falls quickly as nodes are added."""
+        """Return the error due to the fine mesh, without the effect of spikes and kinks.
+
+        This error falls quickly if the number of nodes is increased.
+        """
         return self._error(0.0, {})
 
     def error(self) -> MeshError:
-        """Return the error, including the effect of spikes and kinks.
+        """Return the error due to the fine mesh, including the effect of spikes and kinks.
 
         Even a mesh of `FINEST` nodes does not resolve spikes and kinks.
         """
@@ -229,9 +232,10 @@ def is_acceptable(comparison: Comparison | None) -> bool:
 def finer_nodes(nodes: int, comparison: Comparison | None) -> int:
     """Return the number of nodes of the next finer mesh, at most `FINEST`.
 
-    The present error divided by its limit determines this number, for an error of second order. The ratio is limited to
-    16; an unknown ratio is taken as 4. The number of intervals grows by a power of sqrt(2), so that different contacts
-    are solved on the same few meshes.
+    The error is of second order. The number of intervals must therefore grow by the square root of the ratio of the
+    present error to the largest permissible error. If this ratio is above 16, the function uses 16. If the ratio is
+    unknown, the function uses 4. The square root is rounded up to a power of sqrt(2), so that different contacts are
+    solved on the same few meshes.
     """
     excess = 4.0 if comparison is None else min(comparison.smooth_error().largest / LARGEST_MESH_ERROR, 16.0)
     half_octaves = max(ceil(log2(excess)), 1)
@@ -244,8 +248,8 @@ def compare(
     """Compare a solved contact with a solution of the same contact on half as many nodes (Richardson).
 
     Return None if the coarse solution fails. The fine solution gives the start values of the coarse solution. One
-    Newton step is usually enough. A pressure spike or a hot film needs more steps, because the peak is too sharp for
-    the coarse mesh.
+    Newton step is usually enough. More steps are needed if the film has a pressure spike or is hot, because the peaks
+    of pressure or temperature are then too sharp for the coarse mesh.
     """
     grid = grid_for(resolution.gap, resolution.nodes // 2 + 1)
     state = interpolate(attempt.state, attempt.grid.x, grid.x)
@@ -268,8 +272,9 @@ def _steepest_fall(attempt: Attempt) -> float:
 def _kink(attempt: Attempt, surface: int) -> float:
     """Return the largest excess [K] of a surface temperature over the mean of its two neighbouring nodes.
 
-    Only nodes downstream of the centre are considered. There is such an excess if a pressure spike heats only one node.
-    On another mesh, a node may lie nearer to the spike and be hotter. The excess is an estimate of this difference.
+    Only nodes downstream of the centre are considered. If a pressure spike heats only one node, the temperature of this
+    node depends on its distance from the spike. On another mesh, the hottest node may lie nearer to the spike. The
+    excess is an estimate of how much hotter that node would be.
     """
     t = attempt.state.temperature[attempt.grid.x > 0.0, surface]
     return float((t[1:-1] - 0.5 * (t[:-2] + t[2:])).max())

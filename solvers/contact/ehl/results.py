@@ -52,7 +52,7 @@ class FilmThickness:
 
 @record
 class ContactPressure:
-    """Pressure in the film; the height of a sharp second maximum depends on the mesh."""
+    """Pressure in the film; the height of a sharp second maximum depends on the numerical mesh."""
 
     centre: float = quantity("pressure in the centre", "p(0)", f"{XUE}, Eq. 17", unit="mpa", text="pressure at x = 0")
     maximum: float = quantity(
@@ -122,7 +122,7 @@ class ContactHeat:
 
 @record
 class MeshError:
-    """Estimated relative errors of the results due to the mesh.
+    """Estimated relative errors of the results due to the numerical mesh.
 
     If the contact is isothermal, the errors of flash temperatures and heat are None. If the coefficient of friction is
     below 0.001, its error is relative to 0.001. If a flash temperature is below 25 K, its error is relative to 25 K.
@@ -162,9 +162,10 @@ class Convergence:
     The change of pressure is divided by the Hertzian pressure; the load error is relative to the load. Both changes are
     None if no Newton step was allowed. The change of temperature is also None if the contact is isothermal.
 
-    `stage` is the last stage of the iteration. The iteration may raise the Eyring stress in steps. If such a step
-    failed, `eyring_stress` [Pa] is the last stress with convergence, or 0 if there was none. If no step failed,
-    `eyring_stress` is None. `departure` [K] is the error of the temperatures in a finished thermal state.
+    `stage` is the last stage of the iteration. `eyring_stress` [Pa] has a value only if the solver increased the Eyring
+    stress from a low value towards the given value, and failed before the given value. It is then the largest Eyring
+    stress with a solution, or 0 if there was no solution. `departure` [K] is the largest error of the temperatures in
+    a finished thermal state.
     """
 
     iterations: int = quantity("Newton steps", text="Newton steps in all")

@@ -219,7 +219,7 @@ def mass_flux_slopes(
 
 @inlined_kernel
 def _flux_scales(problem: Problem) -> tuple[float, float]:
-    """Return the factors that turn B H and A H^3 dP/dX into fluxes in units of the flux scale."""
+    """Return the factors by which B H and A H^3 dP/dX are multiplied to get mass fluxes divided by `flux_scale`."""
     couette = problem.gap_scale / problem.flux_scale
     return couette, couette * problem.gap_scale**2 * problem.maximum_pressure / problem.half_width
 

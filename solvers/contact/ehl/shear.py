@@ -33,6 +33,8 @@ class Shear(NamedTuple):
 class Flow(NamedTuple):
     """Stream functions, and derivatives of ln A and of B with respect to the nodal temperatures, all (n, m + 1).
 
+    A and B are the flow coefficients of the mass flux m = B h - A h^3 dp/dx.
+
     `stream` is the mass flow between surface 1 and a node [kg/(m s)]. `couette` is the part of this flow that does not
     depend on the pressure gradient [kg/(m s)]. `poiseuille` is the profile of the other part, which the pressure
     gradient drives. This profile rises from 0 at surface 1 to 1 at surface 2.

@@ -106,8 +106,8 @@ def temperature_step(
     `given` (n, k) is the temperature change that a change of pressure causes if the temperatures upstream are fixed.
     `weight` multiplies the residual. It is 1 for a Newton step, and 0 to compute only the effect of `given`.
 
-    The solution marches along the flow. If oil flows backward in some columns, several sweeps over these columns come
-    before the march.
+    The columns are solved one after the other along the flow. If oil flows backward in some columns, the columns up to
+    the last of these are first solved several times, alternately along the flow and against the flow.
     """
     n, last = step.shape[0], step.shape[1] - 1
     surfaces, residual = heat.surfaces, heat.column.residual
@@ -145,9 +145,9 @@ def inlet_step(problem: Problem, work: Work, temperature: FloatArray, step: Floa
 
     Notes
     -----
-    Eq. E8.3. The walls have their bulk temperatures, oil that enters has the temperature of the inlet, and oil that
-    leaves has the temperature of the next column. The heights at which oil enters follow from the mass flux and a
-    uniform viscosity, so these heights do not depend on the computed temperatures.
+    Eq. E8.3. The walls have their bulk temperatures. Oil that flows into the contact has the temperature of the inlet.
+    Oil that flows back out of the contact has the temperature of the second column. The heights at which oil flows in
+    follow from the mass flux and a uniform viscosity, so these heights do not depend on the computed temperatures.
     """
     nodes = step.shape[1]
     u1, u2 = problem.speed_1, problem.speed_2

@@ -1,11 +1,10 @@
 """Tilts of the coupling hubs in equilibrium with the loads of the couplings.
 
 The ports of a unit are the stations of the face and the hubs on the unit's shafts (see `influence`). A coupling has
-one hub on a shaft of the unit and one hub on a machine. If the shaft moves by u at its hub, the two hubs have the tilts
-x = rest + lever u. Here `rest` are the tilts
-for u = 0, and `lever` is a constant matrix. The loads p(x) of the coupling bend the shaft, and the bent shaft moves the
-hub. Newton's step on x has the matrix I - lever D dp/dx, where D is the derivative of the hubs' motion with respect to
-the loads of the couplings.
+one hub on a shaft of the unit and one hub on a machine. The motion u of the hub on the shaft determines the tilts of
+both hubs: x = rest + lever u. Here `rest` contains the tilts for u = 0, and `lever` is a constant matrix. The loads
+p(x) of the coupling bend the shaft, and the bent shaft moves the hub on the shaft. Newton's step on x has the matrix
+I - lever D dp/dx. Here D is the derivative of u with respect to the loads of the couplings.
 """
 
 from dataclasses import dataclass
@@ -196,7 +195,7 @@ def _try_tilts(unit: Unit, force: FloatArray, tilts: FloatArray, share: float = 
 
 
 def _yielding(unit: Unit, count: int, state: _State) -> Yielding:
-    """Return the motion of the ports in balance, and its derivative with respect to the force over the face."""
+    """Return the motion of all ports in balance, with the derivative that `Yielding` describes."""
     mesh, hubs = state.derivative[:count], state.derivative[count:]
     through = solve_linear(state.by_tilts, _levers(unit.couplings) @ hubs[:, :count])
     return Yielding(state.hubs, state.motion, mesh[:, :count] + mesh[:, count:] @ state.hubs.by_tilts @ through)
@@ -208,8 +207,10 @@ def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
     The path begins at `free`, the hubs without coupling loads. If friction falls with the sliding velocity, a hub can
     jump between sliding and sticking. To follow such a jump, the fraction must decrease for a while. The fraction is
     therefore an unknown, and the length of a step along the path is given (pseudo-arclength continuation, Allgower and
-    Georg 2003, chapter 2). A step along the tangent of the path is corrected by Newton's iteration. Return the hubs
-    approximately under the full loads, or at the last point of the path if the full loads are not reached.
+    Georg 2003, chapter 2). A step along the tangent of the path is corrected by Newton's iteration.
+
+    If the fraction reaches 1, interpolate the tilts at a fraction of 1 between the last two points of the path, and
+    return the hubs at these tilts. Otherwise return the hubs at the last point of the path.
     """
     share, state, length = 0.0, _evaluate(unit, force, free, 0.0), LONGEST
     direction = np.append(np.zeros(free.tilts.size), 1.0)
@@ -234,7 +235,8 @@ def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
 def _sizes(tilts: FloatArray) -> FloatArray:
     """Return a scale [rad] for each component of the tilts.
 
-    The scale is the magnitude of the tilt to which the component belongs, and at least `LEAST_SIZE`.
+    The scale is the magnitude of the tilt to which the component belongs. If this magnitude is below `LEAST_SIZE`, the
+    scale is `LEAST_SIZE`.
     """
     return np.repeat(np.maximum(np.hypot(tilts[::2], tilts[1::2]), LEAST_SIZE), 2)
 
@@ -242,8 +244,8 @@ def _sizes(tilts: FloatArray) -> FloatArray:
 def _path_direction(state: _State, scale: FloatArray, direction: FloatArray) -> FloatArray:
     """Return the unit tangent of the path that `_raise_loads` follows, with tilts divided by their scales.
 
-    `direction` is the direction of the last step. The tangent forms an acute angle with it, so that the path is not
-    followed backwards.
+    `direction` is the direction of the last step. The angle between the tangent and `direction` is acute, so that the
+    path is not followed backwards.
     """
     tangent = solve_linear(_path_matrix(state, scale, direction), np.append(np.zeros(scale.size), 1.0))
     return np.asarray(tangent / np.linalg.norm(tangent))

@@ -20,9 +20,10 @@ from solvers.scuffing.modification import gaps_at
 def misalignment(
     inputs: DriveTrainInputs, unit: Unit, mesh: LoadedMesh, thermal: ThermalLead, equilibrium: Equilibrium
 ) -> Misalignment:
-    """Return the gap that shafts and heat cause, and the modifications that compensate this gap.
+    """Return the gap that shafts and heat cause, and recommended modifications.
 
-    The result also states how much each cause contributes to the slope of the gap.
+    The modifications compensate the gap by heat and the gap that the shafts cause under an even load. The result also
+    states how much each cause contributes to the slope of the gap.
     """
     even = _even_gap(inputs, unit, mesh, equilibrium) + _at_stations(thermal.lead, unit.stations.size)
     return Misalignment(
@@ -92,7 +93,7 @@ def _curves(
 ) -> GapCurves:
     """Return the curves of the gaps and of the load over the face.
 
-    Of the modifications, only the lead modifications enter the gap. Their mean over the face is subtracted.
+    The gap by modifications contains only the lead modifications, minus their mean over the face.
     """
     plane, count = mesh.prepared.path.plane, unit.stations.size
     form = mesh.prepared.mesh.gap._replace(profile_slope=0.0, profile_crowning=0.0, tip_relief=0.0, root_relief=0.0)

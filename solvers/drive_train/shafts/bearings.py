@@ -22,9 +22,11 @@ class BearingState:
     """A loaded bearing.
 
     `displacement` [m] is the displacement of the shaft without the offset of the bore. `flexibility` [m/N] is the
-    derivative of the displacement with respect to the load. Plain bearings also have an eccentricity ratio [-], an
-    attitude angle between load and displacement [rad], a thinnest film [m] and a load per projected area [Pa]. For
-    other bearings these values are None, and the friction power [W] is 0.
+    derivative of the displacement with respect to the load.
+
+    The next four values describe a plain bearing: eccentricity ratio [-], attitude angle between load and displacement
+    [rad], minimum film thickness [m], and load per projected area [Pa]. If the bearing is not a plain bearing, these
+    four values are None, and `friction_power` [W] is 0.
     """
 
     load: FloatArray

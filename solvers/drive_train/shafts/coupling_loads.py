@@ -43,9 +43,9 @@ LEAST_TILT = 1e-12  # rad; below this tilt the moments are proportional to the t
 class HubMoments:
     """Moments of one hub [N m], and the largest axial thrust of the hub [N].
 
-    `straightening` is the sum of the straightening moment and the elastic moment, which both act against the tilt.
-    `loss` is the loss moment of friction. The hub `sticks` if none of its teeth slides. `share` is the friction moment
-    divided by the friction moment of full sliding.
+    `straightening` is the whole moment against the tilt, M_s + M_e. `loss` is the loss moment of friction, M_l. The hub
+    `sticks` if none of its teeth slides. `share` is the root of M_l^2 + M_e^2, divided by the friction moment of full
+    sliding.
     """
 
     straightening: float
@@ -148,7 +148,7 @@ def sliding_tilt(port: CouplingPort, friction: float) -> float:
 
 
 def axial_share(port: CouplingPort) -> float:
-    """Compute the share of a coupling's friction that is left to resist tilting beside the axial thrust.
+    """Compute the share of a coupling's friction that can resist tilting while the axial thrust acts.
 
     Parameters
     ----------

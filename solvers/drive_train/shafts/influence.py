@@ -63,8 +63,8 @@ class Unit:
     """The elastic system of a unit. Its ports are the stations along the face, and five motions per coupling.
 
     The five motions are those of the shaft at the hub of the coupling: the displacements U and V along X and Y, both
-    slopes, and the displacement along Z. The displacement along Z follows from the slopes at the thrust collar. It is 0
-    without a collar, and for a coupling of the wheel.
+    slopes, and the displacement along Z. The displacement along Z follows from the slopes at the thrust collar. The
+    displacement along Z is 0 if there is no collar. At a coupling of the wheel it is always 0.
 
     `elastic` (ports, ports) [m/N, ...] is the flexibility with the bearings at rest. `rest` is the motion of the ports
     under the constant loads. If loads q act at the ports, the bearings carry `bearing_loads` @ q + `bearing_rest` [N].

@@ -168,7 +168,7 @@ def _record_ends(
 ) -> None:
     """Record the flow out of both ends of the row of active pockets.
 
-    Each end of the row is either an end of the duct or a border to idle pockets.
+    If an end of the row is an end of the duct, the flow leaves the duct. Otherwise the flow enters an idle pocket.
     """
     for end in range(2):
         face, outward = (low, -1.0) if end == 0 else (high, 1.0)

@@ -1,12 +1,12 @@
 """One implicit time step of a chain of pockets that exchange mass and energy by nozzle flow.
 
- dm_i/dt = M_{i-1/2} - M_{i+1/2} - Q_i                                    (Eq. 3, with the density in the radial term)
+ dm_i/dt = M_{i-1/2} - M_{i+1/2} - Q_i                                    (Eq. 3; here Q_i contains the density)
  dE_i/dt = (M h)_{i-1/2} - (M h)_{i+1/2} - (Q h)_i - p dV/dt              energy closure, h = c_p T upstream
  p = p_e (rho/rho_e)^gamma                                                isentropic closure (Eq. 1)
 
 Here m_i and E_i are mass and energy of pocket i, M_{i-1/2} and M_{i+1/2} are the mass flows through the faces below and
 above the pocket, Q_i is the mass flow through the radial gaps, and h is the enthalpy of the gas upstream. The index e
-denotes the ambient state. All terms are per metre of face.
+denotes the ambient state. Masses, energies, volumes and flows are divided by the width of a pocket.
 
 The step is a backward Euler step, but the wall work is computed with the mean pressure of the step. Newton's method
 solves for pressure and mass of all pockets. The Jacobian consists of blocks of two by two. These blocks are eliminated
@@ -36,8 +36,8 @@ ROW = floats("by_pressure", "by_mass")
 BALANCE: Fields = [*floats("flow", "leak", "residual"), ("lower", ROW), ("diagonal", ROW), ("upper", ROW)]
 """Balance of mass or of heat of a pocket.
 
-`flow`: flow through the face below the pocket, towards the high end [kg/s or W]; `leak`: leakage outwards [kg/(s m) or
-W/m]; `residual` of Newton's method [kg/m or J/m]. `lower`, `diagonal` and `upper`: derivatives of the residual by the
+`flow`: flow upwards through the face below the pocket [kg/s or W]; `leak`: leakage outwards [kg/(s m) or W/m];
+`residual` of Newton's method [kg/m or J/m]. `lower`, `diagonal` and `upper`: derivatives of the residual by the
 state of the pocket below, of the pocket itself and of the pocket above.
 """
 
@@ -137,7 +137,7 @@ def advance(
     pockets : RecordArray
         Records of POCKET, (pockets + 1,); the new states and the balances are changed in place.
     low, high : int
-        First active pocket, and the pocket after the last active pocket.
+        Index of the first active pocket, and index of the pocket after the last active pocket.
     dt : float
         Length of the step [s].
     isentropic : bool
@@ -187,7 +187,10 @@ def _add_change(value: float, change: float) -> float:
 def _set_from_flows(
     gas: Gas, width: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
 ) -> None:
-    """Compute mass and pressure from the converged flows, so that mass and energy are conserved up to round-off."""
+    """Compute mass and pressure from the converged flows.
+
+    This conserves mass up to round-off. If `isentropic` is false, it also conserves energy up to round-off.
+    """
     g = gas.exponent
     for i in range(low, high):
         old_area, area = pockets[i].start_area, pockets[i].area
@@ -332,8 +335,9 @@ def _add_inflow(balance: Any, share: float, passage: Passage) -> None:
 def _eliminate(pockets: RecordArray, low: int, high: int) -> None:
     """Compute Newton's correction by elimination of the blocks along the chain.
 
-    The forward pass solves the two balances of each pocket for the pressure and the mass of this pocket. The solved row
-    for the pressure then replaces the mass balance, and the solved row for the mass replaces the heat balance.
+    The forward pass solves the two balances of each pocket for the corrections of pressure and mass. `mass_balance`
+    then holds the equation for the pressure, and `heat_balance` holds the equation for the mass. The backward pass
+    computes the corrections from these equations.
     """
     for i in range(low, high):
         mass, heat = pockets[i].mass_balance, pockets[i].heat_balance
@@ -361,7 +365,8 @@ def _eliminate(pockets: RecordArray, low: int, high: int) -> None:
 def _substitute(balance: Any, pressure: Any, mass: Any) -> None:
     """Eliminate the pressure and the mass of the pocket below from a balance.
 
-    `pressure` and `mass` are the balances of the pocket below, solved for its pressure and for its mass.
+    `_eliminate` has already solved both balances of the pocket below. `pressure` is now the equation for the pressure
+    of the pocket below, and `mass` is the equation for the mass of the pocket below.
     """
     p, m = balance.lower.by_pressure, balance.lower.by_mass
     balance.diagonal.by_pressure -= p * pressure.upper.by_pressure + m * mass.upper.by_pressure

@@ -34,7 +34,8 @@ class Wall(NamedTuple):
     """Walls of a tooth space at one position on the face and at one angle of the gear.
 
     `area` is the cross-section of the space [m^2], and `clearance` is the sum of the clearances on both sides [m].
-    `carried` is the area [m^2] of the gas in this cross-section that the moving flanks have carried out of the space.
+    `carried` [m^2] is the volume of gas per metre of face that the moving flanks have carried out of the space since
+    the stroke began.
     """
 
     area: float

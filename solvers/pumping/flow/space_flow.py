@@ -31,9 +31,9 @@ BALANCE = floats("begun", "ended", "low_end", "high_end", "walls", "idle")
 """Balance of the mass [kg] or energy [J] of all cells over their strokes.
 
 `begun` and `ended`: content of the cells when their strokes began and ended. `low_end` and `high_end`: outflow through
-both ends. `walls`: outflow through the radial gaps and with the flanks; in the balance of energy, also the work on the
-walls. `idle`: outflow to cells outside their stroke. `begun` minus the sum of the other values is the error of
-conservation.
+both ends. `walls`: outflow through the radial gaps, and gas that the moving flanks carry out of the cells; in the
+balance of energy, also the work on the walls. `idle`: outflow to cells outside their stroke. `begun` minus the sum of
+the other values is the error of conservation.
 """
 
 ENDS = floats("time", "low_outflow", "high_outflow")

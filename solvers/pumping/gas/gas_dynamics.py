@@ -1,7 +1,7 @@
 """Quasi-one-dimensional gas dynamics of a tooth space, computed in time steps from the start to the end of the stroke.
 
-A cell takes part in the steps while the cell is in its stroke. The results of this model converge if the grid is
-refined; the results of the pocket chain do not converge.
+A time step computes only the cells in which the stroke is under way. If the grid is refined, the results of this model
+converge, but the results of the pocket chain do not converge.
 """
 
 from math import ceil
@@ -73,9 +73,10 @@ def _steps(gas: Gas, part: Duct, angle: FloatArray) -> float:
 def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record, order: int) -> int:
     """March from the first to the last of the `angles` [rad]; return the number of steps, or a negative number.
 
-    Steps are as long as the waves allow. The last step before one of the `angles` ends at this angle, however short
-    this step becomes. Results therefore depend continuously on the step length. The result is -1 if the record has no
-    room for more steps, and -2 if no step length gives a physical state.
+    The fastest wave determines the longest permitted step. A step that would pass the next of the `angles` is shortened
+    and ends at this angle, even if the step is then very short. Results therefore depend continuously on the step
+    length. The returned number is -1 if the record has no room for more steps, and -2 if no step length gives a
+    physical state.
     """
     angle, taken, low, high = angles[0], 0, 0, 0
     for k in range(1, angles.size):
@@ -127,10 +128,10 @@ def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, 
     the end is open. If a cell is in its stroke during only a part of the step, the leakage and the mean temperatures of
     the cell count only for this part.
 
-    If the stroke runs along the face faster than sound, cells take part a few cell widths early. In reality, no
-    wave reaches the border between the active and the idle cells. On a grid, however, waves spread over a few cells and
-    could reach the border. They would then change the state with which the next cells begin. The flow could develop in
-    two different ways, depending on the sequence of steps.
+    If the stroke runs along the face faster than sound, a cell takes part as soon as the stroke is less than `_AHEAD`
+    cell widths away. In reality, no wave reaches the border between the active and the idle cells. On a grid, however,
+    waves spread over a few cells. If cells did not take part early, waves could reach the border and change the state
+    with which the next cells begin. Different sequences of steps could then lead to two different flows.
     """
     low, high, rear = 0, 0, duct.cells - 1
     early = _AHEAD * duct.lag * duct.width if duct.speed >= duct.lag * gas.sound_speed else 0.0
@@ -208,9 +209,9 @@ def _record_ends(
 ) -> None:
     """Record the flow through both ends of the row of active cells.
 
-    An end of the row is either an open end of the duct or a border to idle cells. The flow through a border is recorded
-    as flow to idle cells. If the stroke at an end of the duct begins or ends within the time step, only the flow during
-    the stroke is recorded as flow out of the duct. The rest is recorded as flow to idle cells.
+    An end of the row is either an open end of the duct or a border to idle cells. The flow through a border is added to
+    `idle`. If the stroke at an end of the duct begins or ends within the time step, only the flow during the stroke is
+    recorded as flow out of the duct. The flow through this end during the rest of the step is also added to `idle`.
     """
     dt = turn / duct.speed
     for end in range(2):

@@ -153,12 +153,13 @@ def front_face(gas: Gas, speed: float, cell: State) -> State:
 
     `cell` is the state of the gas behind the border. Seen from the border, the gas ahead is a head wind. The border is
     therefore treated as a face to a reservoir with the stagnation state of this head wind. The head wind is limited to
-    the speed of sound. Without this limit, a border that moves faster would stop the waves that the grid spreads over
-    several cells.
+    the speed of sound. Real waves do not reach a border that moves faster than sound. But the grid spreads waves over
+    several cells, and without the limit the border would stop these waves.
 
-    Two simpler conditions at the border fail. If the border is always at ambient pressure, a jet follows the border. If
-    the border is alternately at ambient pressure and at rest, waves are reflected with the pressure rho c u. This
-    pressure is proportional to the speed u, but the correct pressure is proportional to the square of the speed.
+    Two simpler conditions at the border fail. If the gas at the border always has ambient pressure, a jet follows the
+    border. If the gas at the border alternately has ambient pressure and no velocity, waves are reflected with the
+    pressure rho c u. This pressure is proportional to the speed u, but the correct pressure is proportional to the
+    square of the speed.
     """
     g, head = gas.exponent, min(speed, gas.sound_speed)
     warming = 1.0 + 0.5 * (g - 1.0) * (head / gas.sound_speed) ** 2
@@ -183,9 +184,9 @@ def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> State:
 
     The inflow is at most sonic. Where the inflow meets the gas of the cell, both gases have the same pressure and the
     same velocity, but they may have different temperatures. The `invariant` v + 2c/(g-1) holds in the gas of the cell.
-    `cell_sound_speed` is the speed of sound [m/s] of this gas after an expansion to ambient pressure. In the code,
-    `ratio` is the speed of sound at the face divided by the speed of sound in the ambient gas. This ratio is the larger
-    root of a quadratic equation.
+    `cell_sound_speed` is the speed of sound [m/s] in the gas of the cell after an expansion to ambient pressure. In the
+    code, `ratio` is the speed of sound at the face divided by the speed of sound in the ambient gas. This ratio is the
+    larger root of a quadratic equation.
     """
     g, stagnation = gas.exponent, gas.sound_speed
     slope, jet = 2.0 / (g - 1.0) * cell_sound_speed, 2.0 / (g - 1.0) * stagnation**2

@@ -44,10 +44,10 @@ END = floats("demand", "mach", "velocity")
 """Values at an end of the duct: demand (see `reservoir_face`), Mach number, outward velocity [m/s]."""
 
 LEAK = floats("latest", "halfway", "growth")
-"""Mass flux that leaks out of a cell; the first guess for the next step is extrapolated from these values.
+"""Leakage of a cell in the latest step; the first guess for the next step is extrapolated from these values.
 
-`latest` and `halfway`: flux at the end and in the middle of the latest step [kg/(s m)]; `growth`: rate at which the
-flux grew in this step [kg/(s^2 m)].
+`latest` and `halfway`: leakage per unit time and per metre of face, at the end and in the middle of the latest step
+[kg/(s m)]; `growth`: mean rate at which this leakage grew in the latest step [kg/(s^2 m)].
 """
 
 
@@ -258,7 +258,7 @@ def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
 def _own_flux(g: float, area: float, edge: State) -> Conserved:
     """Compute the flux through a face of a cell from the state `edge` of this cell at the face.
 
-    The function `ram_pressure` is not used, because it would give other rounding errors.
+    The function `ram_pressure` is not used. It multiplies in another order, and the flux would be rounded differently.
     """
     return flux(g, area, edge, edge.density * edge.velocity**2)
 
@@ -308,7 +308,8 @@ def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None
 def _put_flux(gas: Gas, cells: Cells, face: int, outward: float, state: State) -> None:
     """Store the flux of a state through a face.
 
-    `outward` is -1 if the velocity of the state is positive towards the low end of the duct, else 1.
+    The velocity in `state` is positive if the gas leaves the active cells. `outward` is -1 if the face is the low end
+    of the duct, and 1 at every other face.
     """
     through, fluxes = flux(gas.exponent, cells.face_area[face], state, ram_pressure(state)), cells.flux
     fluxes[face].mass, fluxes[face].energy = outward * through.mass, outward * through.energy

@@ -1,4 +1,5 @@
 """The geometry of the space between two teeth in mesh.
 
-The modules use each other in this order: tooth_space, profile, section, stroke. `face` divides the face width.
+In the order tooth_space, profile, section, stroke, a module uses only the modules before it. `face` divides the face
+width into stretches between the grooves.
 """

@@ -20,7 +20,7 @@ class Section(NamedTuple):
     """Areas [m^2] and clearances [m] of a tooth space at one angle.
 
     `area` is the free area of the space. `left` and `right` are the clearances of the left side and of the right side.
-    `carried` is the area of the gas that the flanks have carried out of the space.
+    `carried` is the volume of gas per face width that the flanks have carried out of the space [m^2].
     """
 
     area: float
@@ -33,8 +33,8 @@ class Section(NamedTuple):
 def _area_part(space: ToothSpace, own_x: float, own_y: float, mate_x: float, mate_y: float, mate_roll: float) -> float:
     """Compute an area [m^2] that belongs to the left or the right side of a tooth space.
 
-    The lower end of this area is the axis of the gear to which the tooth space belongs. The upper end consists of
-    three lines: the narrowest section of this side, the flank of the mating gear, and the tip of the mating gear.
+    The area extends from the axis of the gear to which the tooth space belongs up to three lines: the narrowest section
+    of this side, the flank of the mating gear, and the tip of the mating gear.
     """
     base = space.mate_base_radius
     under_flank = sector(space.mate_tip_roll, base) - sector(mate_roll, base)
@@ -46,7 +46,7 @@ def _area_part(space: ToothSpace, own_x: float, own_y: float, mate_x: float, mat
 def _close(
     space: ToothSpace, angle: float, mate_angle: float, own_radius: float, own_half_angle: float, mate_roll: float
 ) -> float:
-    """Compute the area of `_area_part` [m^2] for a section between two given points.
+    """Compute the area that `_area_part` returns [m^2], if the narrowest section lies between two given points.
 
     The first point lies on the profile of the tooth space (`own_radius` [m], `own_half_angle` [rad]). The second point
     lies on the flank of the other gear (`mate_roll` [m]).
@@ -63,8 +63,8 @@ def _close(
 def _corner_section(space: ToothSpace, angle: float, mate_angle: float) -> tuple[float, float, float, float, float]:
     """Find the shortest line between a tip corner of one gear and the profile of the other gear.
 
-    If the model has contact gaps, the tip corner with the shorter line is used. If the model has tip gaps, the tip
-    corner of the mate is used. The mate is the gear whose tooth enters the tooth space.
+    If `space.contact_gap` is True, the tip corners of both gears are tried, and the shorter line is returned. Otherwise
+    only the tip corner of the mate is tried. The mate is the gear whose tooth enters the tooth space.
 
     Returns five numbers: the length of the line [m]; radius [m] and half angle [rad] of the end on the tooth space; the
     area between the profile up to this end and the axis of the gear with the space [m^2]; and the roll length of the
@@ -86,9 +86,9 @@ def _flank_section(
 ) -> tuple[float, float, float, float, float]:
     """Find the narrowest section between two flanks on the line of action. Return the same values as `_corner_section`.
 
-    If the line of action misses the involute of one gear, the section starts at the flank of the other gear. The
-    section then ends at the nearest point of the gear with the missed involute. The clearance is the smaller of two
-    lengths: the length of this section, and the distance from the end of the missed involute to the other gear.
+    If the line of action meets the involute of a gear A but misses the involute of the other gear B, the section leads
+    from the flank of A to the nearest point of B. The clearance is then the smaller of two lengths: the length of this
+    section, and the distance from the inner end of the involute of B to A.
     """
     start = space.root.involute_roll
     if roll < start:
@@ -106,10 +106,11 @@ def _flank_section(
 
 @kernel
 def _carried(space: ToothSpace, roll: float, gap: float) -> float:
-    """Compute the area of gas [m^2] that rolling flanks have carried through a section of width `gap` [m].
+    """Compute the volume of gas per face width [m^2] that rolling flanks have carried through a gap of `gap` [m].
 
-    The area is positive if the gas moves towards growing roll lengths. The gas moves with the mean of the rolling
-    velocities of both flanks. The area counts from the instants at which these rolling velocities are 0.
+    The volume is positive if the gas moves towards growing roll lengths. The gas moves with the mean of the rolling
+    velocities of both flanks. The contribution of a flank is set to 0 at the angle at which the rolling velocity of
+    this flank is 0.
     """
     facing = space.line_of_action - gap
     roll = min(max(roll, facing - space.mate_tip_roll), space.tip_roll)
@@ -121,8 +122,8 @@ def _carried(space: ToothSpace, roll: float, gap: float) -> float:
 def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tuple[float, float, float]:
     """Compute the values of the left or the right side of a tooth space.
 
-    Returns the area [m^2], the clearance [m], and the area [m^2] of the gas that the flanks have carried through the
-    narrowest section of this side.
+    Returns the area [m^2], the clearance [m], and the volume of gas per face width [m^2] that the flanks have carried
+    through the narrowest section of this side.
 
     If flanks face each other, the narrowest section lies on the line of action. The distance between the flanks is then
     `gap` [m]. If `gap` is 0, the clearance is 0 wherever the line of action meets both involutes. Both involutes start
@@ -161,8 +162,8 @@ def section(space: ToothSpace, angle: float) -> Section:
     Returns
     -------
     Section
-        Free area [m^2], clearances [m], and area of the gas that the flanks have carried out of the space [m^2]. Only
-        differences of the carried area between two angles have a meaning.
+        Free area [m^2], clearances [m], and volume of gas per face width that the flanks have carried out of the space
+        [m^2]. Only differences of this volume between two angles have a meaning.
 
     Notes
     -----

@@ -97,7 +97,7 @@ def normal_backlash(pair: GearPair, extra: float) -> float:
 
 
 def _thinning(pair: GearPair, normal_backlash: float) -> float:
-    """Return by how much the mating gear's tooth is thinner on its working circle [m]."""
+    """Return the decrease in tooth thickness, on the working circle, that gives the backlash `normal_backlash` [m]."""
     return normal_backlash / (cos(pair.base_helix_angle) * cos(pair.working_pressure_angle))
 
 

@@ -74,8 +74,7 @@ def viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
     Raises
     ------
     InvalidInput
-        `viscosity_range` if the oil is given by its viscosity, and if the law of this oil gives a viscosity that is too
-        high for any oil.
+        `viscosity_range` if the law of a `Lubricant` gives a viscosity that is too high for any oil.
 
     Notes
     -----

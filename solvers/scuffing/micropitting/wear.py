@@ -89,7 +89,7 @@ class _Largest(NamedTuple):
     """Largest depth of wear [m] on a flank, and the place of this depth.
 
     `psi` is the fraction of the path from A, and `face` is the distance from the end that meshes first [m]. If the
-    loaded path reaches a base circle, the depth has no maximum there, and all values are None.
+    loaded path reaches a base circle, the depth would be infinite at the base circle, and all three fields are None.
     """
 
     value: float | None

@@ -22,7 +22,7 @@ def blok_flash(given: LoadDistributionInputs, points: ContactPoints) -> FloatArr
     -------
     ndarray
         Flash temperature [K]. It is 0 at points without contact or motion. It is NaN at loaded points that are too near
-        a base circle. If the coefficient of friction is None, it is NaN at every point in contact.
+        a base circle. If the coefficient of friction is None, the flash temperature is NaN at every point in contact.
 
     Notes
     -----

@@ -224,7 +224,7 @@ def formula_film(inputs: ScuffingInputs) -> ContactFunction:
 
 
 def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return the highest of `peak`, the points of the feature line, and the points that `_or_beside` searches.
+    """Return the highest of `peak`, the peak on the feature line, and the peaks that `_or_beside` adds.
 
     The feature line is the diagonal of the flank that runs from A at y = 0 to E at the other end of the face.
     """
@@ -233,10 +233,10 @@ def on_diagonals(distribution: LoadDistribution, peak: Peak, function: FlankFunc
 
 
 def _or_beside(distribution: LoadDistribution, peak: Peak, function: FlankFunction) -> Peak:
-    """Return the highest of `peak`, the points of the profile line through `peak` and, for spur pairs, a diagonal.
+    """Return `peak`, or a higher peak on the profile line through `peak` or, for spur pairs, on a diagonal.
 
-    The diagonal is the mirror image of the feature line. With this diagonal, a spur pair and the mirror image of this
-    pair have the same largest value.
+    The diagonal is the mirror image of the feature line. If a spur pair is mirrored, the feature line and this
+    diagonal change places, so the largest value of both diagonals stays the same.
     """
     peak = max(peak, _peak_at_kinks(distribution, function, peak), key=_height)
     if distribution.path_of_contact.plane.tan_base_helix > 0.0:
@@ -295,10 +295,10 @@ def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) ->
 
 
 def _around(places: FloatArray, top: IntArray, reach: int) -> FloatArray:
-    """Return new, closer places around one place of every row of `places`.
+    """Return, for every row of `places`, a new, finer row of places around the place with the index in `top`.
 
-    `top` contains the index of this central place for every row. The new places extend over `reach` steps of the old
-    row to both sides, but not beyond the old row. The central place is always one of the new places.
+    The new row extends over `reach` steps of the old row to both sides of this place, but not beyond the ends of the
+    old row. The new row always contains this place.
     """
     row, last = np.arange(top.size), places.shape[1] - 1
     centre = places[row, top]

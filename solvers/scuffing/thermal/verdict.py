@@ -1,8 +1,9 @@
 """Largest flash temperature and thinnest film of the lines and of the flank, and warnings about missing values.
 
 An unsolved point might be hotter, or might have a thinner film, than all solved points. If there is such a point, the
-two values by thermal EHL are not stated. At some unsolved points, bounds of flash temperature and film are known. These
-bounds may show that the point cannot be the hottest point and cannot have the thinnest film.
+largest flash temperature and the thinnest film by thermal EHL are not stated. At some unsolved points, bounds of flash
+temperature and film are known. These bounds may show that the point cannot be the hottest point and cannot have the
+thinnest film.
 """
 
 from collections.abc import Sequence
@@ -204,8 +205,8 @@ def path_notices(
 ) -> tuple[Notice, ...]:
     """List warnings about points without a film, about unsolved points, and about a safety factor without meaning.
 
-    `unknown` is the number of unsolved points that may be the hottest, or may have the thinnest film. A note states if
-    the risk class on the feature line differs from the risk class on the whole flank.
+    `unknown` is the number of unsolved points that may be the hottest, or may have the thinnest film. The list also
+    contains the note that `_other_verdict` returns.
     """
     notices = []
     status = [outcome for path in paths for outcome in path.status]
@@ -239,7 +240,8 @@ def path_notices(
 def _other_verdict(flank: float, feature_line: float | None) -> list[Notice]:
     """Return a note if the risk class of the feature line differs from the risk class of the flank.
 
-    Before version 0.3 only the feature line was judged.
+    Also return a note if the feature line has no safety factor. The note concerns users of versions before 0.3, which
+    judged only the feature line.
     """
     if feature_line is not None and scuffing_risk(feature_line) == scuffing_risk(flank):
         return []
