@@ -215,8 +215,8 @@ def space_duct(mesh: Mesh, space: Space, pinion_speed: float, part: Stretch, *, 
 def _angles(mesh: Mesh, space: Space) -> FloatArray:
     """Return the angles of the gear [rad] at which the flow in its tooth spaces is recorded.
 
-    The first angle is the start of the stroke at the end of the face that meshes first. The last angle is the end of
-    the stroke at the other end of the face.
+    At the first angle, the stroke begins where the face meshes first. At the last angle, the stroke ends on the other
+    side of the face.
     """
     limits = space.table.limits
     return np.linspace(limits.start, limits.end + space.lag * mesh.setup.gears.face_width, _ANGLES)

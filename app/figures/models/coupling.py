@@ -152,9 +152,9 @@ def orders(_: CouplingInputs, result: OrbitResult) -> Figure:
 
 
 def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figure:
-    """Draw the least load capacity and the largest contact overlap over the crowning ratio.
+    """Draw curves over the crowning ratio: the least load capacity and the largest contact overlap at each ratio.
 
-    These are the least and the largest value within the range of misalignment. The feasible range of the crowning ratio
+    Least and largest are meant within the range of misalignment. The feasible range of the crowning ratio
     is shaded, and the recommended ratio is marked.
     """
     scan, best = result.scan, result.crowning_ratio

@@ -245,9 +245,9 @@ def mass_flow(_: PumpingInputs, result: PumpingResult) -> Figure:
     """Draw the mass flows of the tooth spaces.
 
     Three bars belong to each end of the face: outflow, inflow and net outflow. For radial clearances and grooves, only
-    the net outflow is drawn. The last bar is the sum of two parts. The first part is the mass that slices lose between
-    two strokes, because ambient gas replaces the gas in these slices. The second part is the mass that flows from
-    slices in their stroke to slices outside their stroke.
+    the net outflow is drawn. One more bar belongs to no end of the face and is the sum of two parts. The first part is
+    the mass that slices lose between two strokes, because ambient gas replaces the gas in these slices. The second part
+    is the mass that flows from slices in their stroke to slices outside their stroke.
     """
     exits = {gear: _exits(space) for gear, space in spaces(result)}
     still = all(abs(row.value) < NO_FLOW for rows in exits.values() for row in rows)

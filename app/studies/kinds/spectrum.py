@@ -906,7 +906,7 @@ class SpectrumPage(StudyPage):
         return Result(progress, figures | self._losses(end), tables, remarks, leads)
 
     def _limited(self, end: Line, limit: Line) -> Limited:
-        """Return the data for the figures of a limit.
+        """Return the data that the figures about a limit show.
 
         If there are more than `MOST_BARS` cases, the data contain only the cases that are most often beyond the limit.
         """
