@@ -1,12 +1,8 @@
 """A fixed number of worker processes, and the queue of their calls.
 
 The owner of a call is a client or a study. A free worker gets a call of the owner with the fewest running calls; of
-several such owners, the owner whose last call began longest ago is next. If the queue is full, a new call of a client
-is rejected, unless another client has at least two calls more than this client. Both waiting calls and running calls
-count here.
-
-If nobody waits for the result of a running call any more, the call may run for another `GRACE_S` seconds. Then the
-worker of this call is killed and replaced.
+several such owners, the owner whose last call began longest ago is next. If nobody waits for the result of a running
+call any more, the call may run for another `GRACE_S` seconds. Then the worker is killed and replaced.
 """
 
 import asyncio
@@ -78,11 +74,7 @@ class Pool:
         return job.outcome
 
     def _admit(self, owner: Hashable) -> None:
-        """Raise QueueFull if the queue is full.
-
-        Do not raise QueueFull if another client has at least two calls more than the client `owner`. Both waiting calls
-        and running calls count here.
-        """
+        """Raise QueueFull if the queue is full, unless another client has at least two calls more than `owner`."""
         places = Counter(job.owner for job in (*self._running, *self._waiting) if job.is_single)
         if places.total() >= self.size + self._settings.queue and max(places.values()) <= places[owner] + 1:
             REFUSED.inc()
@@ -124,10 +116,7 @@ class Pool:
             return None
 
     async def serve(self) -> None:
-        """Take calls from the queue without end, and run them one after another, each in a free worker.
-
-        As many copies of this loop run at the same time as there are workers.
-        """
+        """Run calls from the queue one after another, without end. There is one such loop for each worker."""
         while True:
             while len(self._running) >= self.alive or not (
                 waiting := [job for job in self._waiting if not job.outcome.done()]

@@ -38,12 +38,7 @@ class StartUp:
             raise WarmingUp(f"The solvers are being compiled, which happens once after installation: {report}")
 
     async def run(self) -> None:
-        """Compile all stages, then open the endpoints that are not open yet.
-
-        If a process fails, delete all compiled kernels and compile all stages once more. The endpoints also open if the
-        second attempt fails. If there is no folder for compiled kernels, the endpoints open without compilation. In
-        both cases kernels are compiled when they are needed.
-        """
+        """Compile all stages, then open all endpoints. If a process fails, compile once more in an empty folder."""
         began = time.monotonic()
         if FOLDER is not None and not await self._compile(STAGES):
             logger.warning("a process that compiled kernels died: all are compiled anew")
@@ -57,8 +52,7 @@ class StartUp:
     async def _compile(self, stages: Sequence[Stage]) -> bool:
         """Run `tribodrive compile` and read the printed progress. Return False if the process failed.
 
-        If kernels have to be compiled and the computer has more than one processor, a second process compiles the stage
-        `BESIDE` at the same time.
+        If kernels have to be compiled, a second process compiles the stage `BESIDE` on another processor.
         """
         other: asyncio.Task[bool] | None = None
         process = await asyncio.create_subprocess_exec(

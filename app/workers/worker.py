@@ -24,10 +24,7 @@ _notes = BufferingHandler(sys.maxsize)
 
 @lru_cache(maxsize=1)
 def prepare(memory_bytes: int, modules: Sequence[str]) -> int:
-    """Load modules, limit the memory, and return the identifier of this process.
-
-    Only the first call in a process does this work. Later calls with the same arguments return the identifier.
-    """
+    """Load modules and limit the memory, at the first call only. Return the identifier of this process."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # ignored here, because Ctrl-C reaches every process of the terminal
     os.environ.update(ONE_THREAD)  # before numpy is loaded
     threading.Thread(target=_end_with_the_service, args=(os.getppid(),), daemon=True).start()

@@ -127,10 +127,7 @@ def _key(root: str, name: str) -> str:
 
 
 async def _upload(http: Request) -> Upload:
-    """Return the file that the client sent.
-
-    Raises HTTPException if the media type is unknown, and Unprocessable if a form has no file.
-    """
+    """Return the file that the client sent, or raise the error that says why there is none."""
     media_type = http.headers.get("content-type", "").partition(";")[0].strip().lower()
     if media_type in TYPES:
         return Upload(await http.body())

@@ -54,10 +54,7 @@ async def healthz() -> Health:
 
 @router.get("/readyz", responses=documented(503))
 async def readyz(http: Request) -> Readiness:
-    """Return `ok` if all calculations are ready and a worker is alive. Otherwise, answer 503 at once.
-
-    If calculations are not ready, the answer states how far the solvers are compiled.
-    """
+    """Return `ok` if all calculations are ready and a worker is alive. Otherwise, answer 503 with the reason."""
     start_up, pool = http.app.state.start_up, http.app.state.pool
     start_up.require()
     if pool.alive <= 0:

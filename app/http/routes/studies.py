@@ -49,11 +49,7 @@ async def planned(http: Request, planner: Callable[[int, float], Any], most: int
 
 
 async def begun(http: Request, study: Study, progress_s: float = PROGRESS_S) -> tuple[Lines, Clock]:
-    """Begin a study. Return a generator of the result lines, and the clock of the study.
-
-    A result line is one object of the streamed answer. The clock holds the running time of the study and the number of
-    solved points. The study must already be counted among the running studies.
-    """
+    """Begin a study that already counts as running. Return its results, as they come, and its clock."""
     clock = Clock(study.total)
     lines = study.lines(await http.app.state.studies.pool(), clock)
     return guarded(lines, clock, http.app.state.settings.study_deadline_s, progress_s), clock
@@ -67,10 +63,7 @@ async def streamed(
     headers: dict[str, str] | None = None,
     progress_s: float = PROGRESS_S,
 ) -> Response:
-    """Return a response that streams the results of a study.
-
-    The study counts as running until the response ends.
-    """
+    """Return a response that streams a study's results. The study counts as running until the response ends."""
     with ExitStack() as stack:
         stack.enter_context(http.app.state.studies.place())
         content = pieces(*await begun(http, study, progress_s))

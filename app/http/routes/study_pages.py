@@ -1,7 +1,4 @@
-"""Pages of studies, and the files of these pages.
-
-A page is sent piece by piece while the results of its study arrive.
-"""
+"""Pages of studies, and their files. A page is sent piece by piece while the results of its study arrive."""
 
 import asyncio
 from collections.abc import Callable
