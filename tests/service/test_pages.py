@@ -491,6 +491,7 @@ def test_a_choice_below_an_open_help_is_hit(visit: Callable[..., Page], touch: b
     choice = page.locator("fieldset.choice").first
     one, other = choice.locator("label.pick").nth(0), choice.locator("label.pick").nth(1)
     one.locator("input").check()
+    page.wait_for_function("running === null && shown === caseOf(form)")  # faults at the fields move what is below
     choice.locator(".field input:visible").first.focus()
     expect(choice.locator(".help").first).to_be_visible()
     other.scroll_into_view_if_needed()
