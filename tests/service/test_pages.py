@@ -14,6 +14,7 @@ from app.pages.query import link, pairs_of
 from tests.rexs.units import turbo_unit
 from tests.support.browsing import DESK, PHONE, address_of, hold_scripts, overflow, violations
 from tests.support.lists import LISTS
+from tests.support.server import wait_until
 
 pytestmark = pytest.mark.service
 
@@ -491,7 +492,8 @@ def test_a_choice_below_an_open_help_is_hit(visit: Callable[..., Page], touch: b
     choice = page.locator("fieldset.choice").first
     one, other = choice.locator("label.pick").nth(0), choice.locator("label.pick").nth(1)
     one.locator("input").check()
-    page.wait_for_function("running === null && shown === caseOf(form)")  # faults at the fields move what is below
+    # Faults at the fields move what is below them.
+    wait_until(lambda: page.evaluate("running === null && shown === caseOf(form)"))
     choice.locator(".field input:visible").first.focus()
     expect(choice.locator(".help").first).to_be_visible()
     other.scroll_into_view_if_needed()
