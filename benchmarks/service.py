@@ -138,7 +138,7 @@ MEASURED = {
 
 
 def best_loads(seconds: int, rounds: int) -> dict[tuple[str, str], tuple[float, float]]:
-    """Return the highest rate [requests/s] and the lowest 99th percentile [ms] of several rounds, for each case.
+    """Measure each case in several rounds. Return its highest rate [requests/s] and lowest 99th percentile [ms].
 
     The cases are the keys of `MEASURED`. In each round, the two applications run one after the other.
     """

@@ -162,7 +162,7 @@ PLACES = {
     "heat_balance.warm_up.WarmUp": "H24",
     "drive_train.warm_up.UnitWarmUp": "H24; least_backlash: H22",
 }
-"""Targets in the manual for the fields of the solvers' dataclasses. The keys are the dataclasses.
+"""Targets in the manual, to which the numbers in the solvers' dataclasses lead. The keys are the dataclasses.
 
 A target is the number of an equation, such as "D15", or a section of a chapter, such as "drive-train#shafts". In
 "D15; scuffing lubricant_factor: R9", the target R9 belongs to the fields `scuffing` and `lubricant_factor`, and the

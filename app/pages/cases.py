@@ -66,7 +66,7 @@ class Asked:
 
     @property
     def calculation(self) -> Calculation:
-        """The calculation, that is, the endpoint of the API, to which the case belongs."""
+        """The calculation to which the case belongs."""
         return BY_PATH[f"/v1{self.path}"]
 
     @property

@@ -135,7 +135,7 @@ def _in_link(model: type[Documented], name: str, text: str, others: dict[str, st
 
 
 def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
-    """Return those fields that the link of a case contains.
+    """Return the fields that the link of a case must contain.
 
     Empty fields are left out. If the user has chosen one of several fields that exclude each other, the fields that the
     user did not choose are left out. The fields that state such a choice (see `PICK`) are left out too. The items of

@@ -87,7 +87,7 @@ def _title_of_item(member: Branch, index: int) -> str:
 
 
 def values_by_path(response: Documented | None) -> dict[str, Any]:
-    """Return a dictionary of all results under their paths. Without a response the dictionary is empty."""
+    """Return all results by their paths. Return an empty dictionary if there is no response."""
     return {entry.path: entry.value for entry in entries(response)} if response is not None else {}
 
 

@@ -27,7 +27,7 @@ def example_of(calculation: Calculation) -> dict[str, Any]:
 
 
 def number_fields(model: type[BaseModel], prefix: str = "") -> Iterator[str]:
-    """Yield the dotted paths of number fields of a request model, except in lists and in optional sections."""
+    """Yield the dotted paths of the number fields of a request. Lists and optional sections are left out."""
     for name, field in model.model_fields.items():
         if isinstance(field.annotation, type) and issubclass(field.annotation, BaseModel):
             yield from number_fields(field.annotation, f"{prefix}{name}.")

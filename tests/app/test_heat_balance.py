@@ -514,9 +514,9 @@ def test_a_unit_that_starts_from_cold() -> None:
 
 
 def test_the_worked_warm_up() -> None:
-    """From 50 C, 95 % of the warm-up takes the pinion about 280 to 340 s and the wheel about 770 to 840 s.
+    """A start at 50 C: the pinion reaches 95 % of its warm-up after 280 to 340 s, and the wheel after 770 to 840 s.
 
-    From 20 C, the temperatures of their bodies differ most after 153 s, by 19.7 K.
+    A start at 20 C: the body temperatures of pinion and wheel differ most after 153 s, by 19.7 K.
     """
     plain = {"cooling.casing": GONE, "cooling.gear_flow_l_per_min": 140.08, "friction_coefficient": 0.04}
     found = started({**plain, "start_c": 50, "until_s": GONE})

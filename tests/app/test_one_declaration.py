@@ -65,7 +65,7 @@ class LongSpring(Spring):
 
 @record
 class LongDeflection:
-    """A result with one more output and one more curve, which need only these declarations."""
+    """A result that adds an output and a curve. Nothing else declares the output and the curve."""
 
     deflection: float = quantity("deflection", "s", unit="um")
     energy: float = quantity("stored energy", "W", unit="j", text="of the spring under load")

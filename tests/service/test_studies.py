@@ -286,7 +286,7 @@ def test_the_deadline_of_a_study_ends_it_with_a_line(short_of_time: tuple[str, P
 
 
 def curve(count: int) -> str:
-    """Return the address of the figure of a study with `count` points."""
+    """Return the address of the figure that shows a study. The study has `count` points."""
     figure = address_of("xue-pair-1-modified", "/vary/figures/curve.svg")
     return f"{figure}&x={SLOPE}&x.count={count}&show=pressure.max_mpa"
 

@@ -44,7 +44,7 @@ def drawn_cases(calculation: Calculation, count: int, seed: int) -> Iterator[tup
 
 
 def _body(calculation: Calculation, body: dict[str, Any], choice: random.Random) -> dict[str, Any]:
-    """Change up to four numbers of a request body at random. Compute the film by formulas if there is a choice."""
+    """Change up to four numbers of a request body at random. If the request can choose the film, choose formulas."""
     model = calculation.request
     if leaf_at(model, "model.lubrication"):
         set_value(model, body, "model.lubrication", "closed_form")

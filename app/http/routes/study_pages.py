@@ -40,7 +40,7 @@ router = APIRouter(include_in_schema=False, dependencies=[Depends(not_from_anoth
 
 
 def _add(calculation: Calculation, own: type[StudyPage]) -> None:
-    """Add the page of one kind of study of a calculation, with the results, figures and report of the study."""
+    """Add the page of a kind of study to a calculation. The page has results, figures and a report."""
     path = f"{page_path(calculation)}/{own.link.name}"
     policy = {"Content-Security-Policy": pages.DOCUMENT_POLICY}
 

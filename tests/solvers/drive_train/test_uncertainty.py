@@ -109,7 +109,7 @@ def test_an_edge_maximum_is_smooth() -> None:
 
 
 def test_gap_at_a_station_moves_the_load_as_the_derivative_says() -> None:
-    """A gap at one of eleven stations changes the load at the end of the face as the derivative states.
+    """The derivative predicts how the load at the end of the face changes with the gap at one of eleven stations.
 
     The load is divided by its mean over the face.
     """
