@@ -1,14 +1,22 @@
-"""The processes of a test run share compiled kernels, and all tests in a process share one service."""
+"""The processes of a test run share compiled kernels and solved requests, and all tests in a process share one service.
+
+The service of `client` and `post` answers in the process of the test; its worker processes are the matter of
+tests/service. `served` is the client of a process of its own, for tests marked `ci`.
+"""
 
 import asyncio
+import os
 from collections.abc import Callable, Iterator
+from tempfile import TemporaryDirectory
 
 import httpx
 import pytest
 from hypothesis import HealthCheck, settings
 
 from app.workers.start_up import StartUp
+from tests.support.in_process import InProcess
 from tests.support.server import running_server
+from tests.support.solved import FOLDER, remember_solutions
 
 # The first example of a property may compile a kernel; the same examples every time, searches live in benchmarks.
 settings.register_profile(
@@ -20,12 +28,14 @@ settings.register_profile(
 settings.load_profile("kernels")
 
 
-def pytest_sessionstart(session: pytest.Session) -> None:
-    """Compile all kernels before the tests run in several processes.
-
-    Otherwise, each of these processes would compile its own kernels.
-    """
-    if session.config.getoption("numprocesses", None) and not hasattr(session.config, "workerinput"):
+def pytest_configure(config: pytest.Config) -> None:
+    """Compile all kernels before the tests run in several processes, and give these a folder of solved requests."""
+    if not config.getoption("numprocesses", None):
+        remember_solutions()
+    else:
+        folder = TemporaryDirectory(prefix="tribodrive-solved-")
+        config.add_cleanup(folder.cleanup)
+        os.environ[FOLDER] = folder.name
         asyncio.run(StartUp().run())
 
 
@@ -42,9 +52,14 @@ def server() -> Iterator[str]:
 
 
 @pytest.fixture(scope="session")
-def client(server: str) -> Iterator[httpx.Client]:
-    # The service closes idle connections after 5 s.
+def served(server: str) -> Iterator[httpx.Client]:
     with httpx.Client(base_url=server, timeout=60, limits=httpx.Limits(keepalive_expiry=3)) as client:
+        yield client  # the server closes idle connections after 5 s
+
+
+@pytest.fixture(scope="session")
+def client() -> Iterator[httpx.Client]:
+    with httpx.Client(base_url="http://127.0.0.1:8000", transport=InProcess()) as client:
         yield client
 
 

@@ -7,14 +7,12 @@ from enum import EnumType
 from importlib import import_module
 from pathlib import Path
 
-import pytest
 from numpydoc.docscrape import NumpyDocString
 from numpydoc.validate import validate
 
-from app.manual.equations import module_of
 from solvers import scuffing
-from solvers.quantity import UNITS, Unit, quantities
-from tests.manual.citations import SOLVERS, cited, docstrings, implementing
+from solvers.quantity import UNITS, quantities
+from tests.manual.citations import SOLVERS, implementing
 
 ROOT = Path(__file__).parents[1]
 CHECKS = set(tomllib.loads((ROOT / "pyproject.toml").read_text())["tool"]["numpydoc_validation"]["checks"])
@@ -34,20 +32,14 @@ def exported() -> set[str]:
     }
 
 
-def with_equation() -> set[str]:
-    """Return the dotted names of all functions whose docstring cites an equation, and of every function `solve`."""
-    functions = {name for name in cited() if name.rpartition(".")[2][0].islower() and name != module_of(name)}
-    return functions | {name for _, name, _ in docstrings() if name.endswith(".solve")}
+PUBLIC = sorted(exported())
 
 
-PUBLIC = sorted(exported() | with_equation())
-
-
-@pytest.mark.parametrize("name", PUBLIC)
-def test_docstring_has_the_form(name: str) -> None:
-    is_enumeration = isinstance(implementing(name), EnumType)  # has the parameters of `str`
-    checks = CHECKS - {"PR01"} if is_enumeration else CHECKS
-    assert [(code, text) for code, text in validate(name)["errors"] if code in checks] == []
+def test_docstrings_have_the_form() -> None:
+    for name in PUBLIC:
+        is_enumeration = isinstance(implementing(name), EnumType)  # has the parameters of `str`
+        checks = CHECKS - {"PR01"} if is_enumeration else CHECKS
+        assert [(code, text) for code, text in validate(name)["errors"] if code in checks] == [], name
 
 
 def fields_in_help(kind: type) -> dict[str, str]:
@@ -56,12 +48,11 @@ def fields_in_help(kind: type) -> dict[str, str]:
     return {entry.name: " ".join(entry.desc) for entry in document["Parameters"] + document["Attributes"]}
 
 
-@pytest.mark.parametrize("name", [name for name in PUBLIC if is_dataclass(implementing(name))])
-def test_help_names_the_unit_of_every_quantity(name: str) -> None:
-    kind = implementing(name)
-    units = {field: UNITS[declared.unit] for field, declared in quantities(kind).items() if declared.unit}
-    shown = fields_in_help(kind)
-    assert {field for field, unit in units.items() if f" [{unit.si or unit.symbol}]." not in shown[field]} == set()
+def test_help_names_the_unit_of_every_quantity() -> None:
+    for kind in filter(is_dataclass, map(implementing, PUBLIC)):
+        units = {field: UNITS[declared.unit] for field, declared in quantities(kind).items() if declared.unit}
+        shown = fields_in_help(kind)
+        assert {field for field, unit in units.items() if f" [{unit.si or unit.symbol}]." not in shown[field]} == set()
 
 
 def test_help_of_a_load_states_si_units_and_the_range_in_the_shown_unit() -> None:
@@ -72,6 +63,6 @@ def test_help_of_a_load_states_si_units_and_the_range_in_the_shown_unit() -> Non
     assert shown["dynamic_factor"].endswith("default 1.")
 
 
-@pytest.mark.parametrize("unit", UNITS.values())
-def test_a_unit_that_is_converted_names_its_si_unit(unit: Unit) -> None:
-    assert (unit.si is None) == ((unit.scale, unit.offset) == (1.0, 0.0))
+def test_a_unit_that_is_converted_names_its_si_unit() -> None:
+    for unit in UNITS.values():
+        assert (unit.si is None) == ((unit.scale, unit.offset) == (1.0, 0.0)), unit

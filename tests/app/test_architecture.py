@@ -1,14 +1,11 @@
 """Imports go one way: `app` imports `solvers`, `solvers` never imports `app`, and no imports are circular."""
 
 import ast
-import re
 from collections.abc import Iterator
 from functools import cache
 from graphlib import TopologicalSorter
 from itertools import takewhile
 from pathlib import Path
-
-import pytest
 
 ROOT = Path(__file__).parents[2]
 ALLOWED = {"solvers", "numpy", "scipy", "numba", "threadpoolctl"}
@@ -35,11 +32,12 @@ def imported(path: Path) -> set[str]:
     return {name.split(".")[0] for name in names}
 
 
-@pytest.mark.parametrize("path", sorted((ROOT / "solvers").rglob("*.py")), ids=lambda path: str(path.relative_to(ROOT)))
-def test_solvers_import_only_numerics(path: Path) -> None:
-    name, (documenting, more) = str(path.relative_to(ROOT)), DOCUMENTS_FIELDS
-    if name not in KEEPS_FILES:
-        assert imported(path) <= ALLOWED | STANDARD | (more if name == documenting else set())
+def test_solvers_import_only_numerics() -> None:
+    documenting, more = DOCUMENTS_FIELDS
+    for path in (ROOT / "solvers").rglob("*.py"):
+        name = str(path.relative_to(ROOT))
+        if name not in KEEPS_FILES:
+            assert imported(path) <= ALLOWED | STANDARD | (more if name == documenting else set()), name
 
 
 def test_every_solver_package_is_found() -> None:
@@ -144,26 +142,3 @@ def test_no_room_imports_a_higher_one() -> None:
     arrows = {(room(name_of(path)), room(other)) for path in MODULES for other in modules_imported(path)}
     upward = [(one, two) for one, two in arrows if one and two and ROOMS.index(one) < ROOMS.index(two)]
     assert upward == []
-
-
-@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
-def test_a_module_says_what_it_is_about(path: Path) -> None:
-    assert ast.get_docstring(tree(path))
-
-
-WITHDRAWN = re.compile(r"\bctypes\b|\bos\.fork|/proc\b|recv_handle|prctl|process_group|starlette\._")
-"""Names that no module may contain: standard parts replace them, or only some platforms have them."""
-
-
-@pytest.mark.parametrize("path", MODULES, ids=lambda path: str(path.relative_to(ROOT)))
-def test_standard_parts_carry_the_service(path: Path) -> None:
-    assert not WITHDRAWN.findall(path.read_text("utf-8"))
-    imported = {
-        alias.asname or alias.name: node.module or ""
-        for node in ast.walk(tree(path))
-        if isinstance(node, ast.ImportFrom)
-        for alias in node.names
-    }
-    bases = [base for node in ast.walk(tree(path)) if isinstance(node, ast.ClassDef) for base in node.bases]
-    roots = {name: imported.get(name, name) for name in (ast.unparse(base).partition(".")[0] for base in bases)}
-    assert not [name for name, module in roots.items() if module.partition(".")[0] in {"uvicorn", "numba"}]

@@ -10,6 +10,8 @@ import uvicorn
 
 from app.client import OPTIONS, AsyncTribodrive, ProblemError, Study, StudyError, Tribodrive
 
+pytestmark = pytest.mark.ci
+
 COUPLING = {
     "coupling": {"teeth": 52, "module_mm": 3, "crowning_ratio": 1},
     "operation": {"torque_n_m": 3000, "speed_rpm": 1910, "misalignment_deg": 0.05, "axial_velocity_mm_per_s": 2},

@@ -79,6 +79,7 @@ def test_processes_of_servers_do_not_matter(case: Path, monkeypatch: pytest.Monk
 
 
 @pytest.mark.parametrize("path", ["/v1/coupling", "/v1/nothing"])
+@pytest.mark.ci
 def test_what_cannot_be_printed_ends_with_a_line(path: str) -> None:
     """If the standard output is full, the process ends with one line of explanation.
 

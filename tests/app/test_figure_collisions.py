@@ -22,6 +22,8 @@ from app.figures.wording import number
 from tests.app.test_figure_labels import TOUCH, faults
 from tests.support.drawn_cases import drawn_cases
 
+pytestmark = pytest.mark.ci
+
 CASES = 3  # of each of ten calculations
 SEED = 46
 

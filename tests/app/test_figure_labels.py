@@ -40,6 +40,8 @@ from app.figures.drawing.style import NARROW, themed, written
 from app.figures.studies import Influence, corners, influence
 from app.pages.charts import in_columns
 
+pytestmark = pytest.mark.ci
+
 X = np.linspace(0.0, 1.0, 41)
 PEAK = 4.0 * X * (1.0 - X)
 LOW, HIGH = values(1.0 + PEAK), values(1.0 + 1.2 * PEAK)

@@ -11,6 +11,8 @@ from app.calculations import CALCULATIONS
 from app.examples import examples
 from tests.support.requests import Post, changed, refusals
 
+pytestmark = pytest.mark.ci
+
 COUPLING = examples()["pahl-heavily-crowned"].request
 LOADS = "/v1/coupling/figures/tooth-loads"
 

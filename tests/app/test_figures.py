@@ -27,6 +27,7 @@ from solvers.gears.pair import gear_pair
 from solvers.pumping.spaces import flow_at, prepare
 from solvers.scuffing.safety_results import ThermalPath
 from tests.support.changes import changed
+from tests.support.properties import one_per_endpoint
 
 CROWNED, SLOPED = "pahl-heavily-crowned", "xue-pair-4-helix-slope-40"
 GENERATOR, TURBO = "starter-generator-gear-drive-train", "starter-turbo-gear-drive-train"
@@ -79,7 +80,6 @@ WITHOUT = {
 }
 # Figures of what follows from the answer; each has a test of its own.
 DERIVED = {"safety", "contact-line-load", "modification-traces", "journals", "section", "shafts"}
-QUICK = sorted(name for name in examples() if not name.endswith(("-thermal", "-choking")))
 
 
 @cache
@@ -170,9 +170,7 @@ def test_every_figure_of_the_table_exists() -> None:
         assert set(names.split()) <= {each.name for each in BY_PATH[path].figures}, path
 
 
-@pytest.mark.parametrize(
-    "name", [pytest.param(name, marks=() if name in QUICK else pytest.mark.slow) for name in sorted(examples())]
-)
+@pytest.mark.parametrize("name", one_per_endpoint(examples()))
 def test_examples_give_figures_with_finite_numbers_and_findings(name: str) -> None:
     for which, data in figures(name):
         assert all((data.title, data.finding, data.source)), which
@@ -279,6 +277,7 @@ def test_contact_track_is_as_wide_as_the_hertz_contact() -> None:
     assert {level.value for level in panel.levels} == {half, -half}
 
 
+@pytest.mark.ci
 def test_choking_scan_repeats_the_pumping_endpoint_and_crosses_its_limits_at_the_speeds_found() -> None:
     _, answer = solved("milian-case-1-choking")
     data = figure("milian-case-1-choking", "choking")
@@ -373,6 +372,7 @@ def test_a_case_without_solution_has_no_figure() -> None:
 
 @pytest.mark.parametrize(("image_format", "start"), [("svg", b"<?xml"), ("png", b"\x89PNG"), ("pdf", b"%PDF")])
 @pytest.mark.parametrize(("name", "which"), [(CROWNED, "tooth-motion"), ("milian-case-1-groove", "pressure-map")])
+@pytest.mark.ci
 def test_equal_figures_give_equal_bytes_without_a_date(name: str, which: str, image_format: str, start: bytes) -> None:
     first = draw(figure(name, which), image_format)
     assert first == draw(figure(name, which), image_format)
@@ -402,6 +402,7 @@ def test_csv_holds_the_numbers_with_units_in_the_header() -> None:
     assert [float(row[2]) for row in grid[1:]] == [each for row in flank.flank.line_load_n_per_mm for each in row]
 
 
+@pytest.mark.ci
 def test_comparison_draws_the_variant_dashed_in_the_same_hue() -> None:
     own, other = (figure(name, "tooth-motion") for name in (CROWNED, "pahl-slightly-crowned"))
     both = compared(own, other, "variant A")
@@ -433,6 +434,7 @@ def test_comparison_draws_the_variant_dashed_in_the_same_hue() -> None:
         *(pytest.param(name, "png", "dark", marks=pytest.mark.slow) for name in CASES.values()),
     ],
 )
+@pytest.mark.ci
 def test_every_figure_of_an_example_is_drawn(name: str, image_format: str, theme: Any) -> None:
     """The figures of all examples are drawn in `test_figure_labels.py`."""
     for which, data in figures(name):
@@ -501,6 +503,7 @@ def test_a_loss_that_is_not_known_is_not_calculated() -> None:
     assert panel.rows[0].value > 1e5
 
 
+@pytest.mark.ci
 def test_bounds_of_the_axial_load_stand_behind_its_value() -> None:
     image = draw(figure(GENERATOR, "thrust"), "svg").decode()
     for text in ("−8895 N", "(−20 993 to 3203)"):

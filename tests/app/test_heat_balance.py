@@ -552,6 +552,7 @@ def test_a_casing_that_warms_up_has_a_mass() -> None:
     assert (refusal.value.code, refusal.value.path) == ("missing_mass", "cooling.casing.mass_kg")
 
 
+@pytest.mark.ci
 def test_a_slow_unit_warms_up_by_its_balance_too() -> None:
     found = started({"operation.pinion_speed_rpm": 3000, "operation.power_kw": 3000})
     assert found["inputs"]["temperatures"]["bulk_method"] == "heat_balance"
@@ -559,6 +560,7 @@ def test_a_slow_unit_warms_up_by_its_balance_too() -> None:
 
 
 @pytest.mark.parametrize("name", [STARTER, TURBO, COLD])
+@pytest.mark.ci
 def test_results_and_answers_can_be_kept(name: str) -> None:
     """Requests and results can be pickled, because pages keep them as bytes."""
     example = examples()[name]

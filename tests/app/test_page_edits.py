@@ -14,6 +14,7 @@ from app.pages.query import PICK, WRITTEN, Pairs, body_of, from_form, normalised
 from app.pages.results import flattened
 from app.pages.templating import page_path
 from tests.support.forms import read_form
+from tests.support.properties import one_per_endpoint
 
 GENERATOR = "starter-generator-gear-drive-train"
 STIFFNESS = "wheel_shaft.bearings.0.stiffness_n_per_um"
@@ -57,7 +58,7 @@ def edited(text: str, offers: list[str] | None) -> str:
     return ",".join(items)
 
 
-@pytest.mark.parametrize("name", sorted(examples()))
+@pytest.mark.parametrize("name", one_per_endpoint(examples()))
 def test_the_form_sends_the_case(name: str) -> None:
     pairs, _ = form_of(name)
     model = BY_PATH[examples()[name].endpoint].request
@@ -65,7 +66,7 @@ def test_the_form_sends_the_case(name: str) -> None:
     assert model.model_validate(body) == model.model_validate(examples()[name].request)
 
 
-@pytest.mark.parametrize("name", sorted(examples()))
+@pytest.mark.parametrize("name", one_per_endpoint(examples()))
 def test_an_edit_changes_one_field(name: str) -> None:
     pairs, offers = form_of(name)
     before, count = sent(name, pairs), 0
@@ -80,6 +81,7 @@ def test_an_edit_changes_one_field(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", sorted(FIRST.values()))
+@pytest.mark.ci
 def test_the_first_example_is_computed_after_an_edit(name: str, client: httpx.Client) -> None:
     example = examples()[name]
     pairs, _ = form_of(name)

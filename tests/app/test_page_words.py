@@ -63,6 +63,7 @@ def test_angles_change_by_differences() -> None:
     assert "+0.05°" in angle
 
 
+@pytest.mark.ci
 def test_a_step_of_a_temperature_is_in_kelvins() -> None:
     base = asked(SCUFFING, show="contact_temperature.blok_max_c")
     closed = Asked(base.path, [*base.pairs, ("model.lubrication", "closed_form")], base.views)

@@ -13,7 +13,6 @@ from typing import Any
 
 import httpx
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
@@ -28,8 +27,10 @@ from app.pages.results import NOT_RESULTS
 from app.pages.templating import page_path
 from app.schema.fields import ITEM, leaves
 from app.sources import SHORT_SOURCES
+from tests.support import properties
 from tests.support.forms import read_form
 from tests.support.pages import asked, asked_by, fault_at, html_of
+from tests.support.properties import one_per_endpoint
 from tests.support.requests import GONE, changed, value_at
 
 IDS = [each.request.__name__ for each in CALCULATIONS]
@@ -59,7 +60,7 @@ def empty(calculation: Calculation) -> str:
     return html_of(Asked(page_path(calculation), []))
 
 
-@pytest.mark.parametrize("name", sorted(examples()))
+@pytest.mark.parametrize("name", one_per_endpoint(examples()))
 def test_an_examples_link_is_its_request(name: str) -> None:
     example = examples()[name]
     model = BY_PATH[example.endpoint].request
@@ -255,8 +256,7 @@ def test_contradicting_names_are_refused(query: str) -> None:
         body_of(SCUFFING, pairs_of_query(query))
 
 
-@settings(derandomize=True, max_examples=150)
-@given(st.lists(st.tuples(st.text(max_size=12), st.text(max_size=12)), max_size=8))
+@properties.examples(20, 200, st.lists(st.tuples(st.text(max_size=12), st.text(max_size=12)), max_size=8))
 def test_whatever_is_sent_gives_a_page_and_runs_nothing(sent: list[tuple[str, str]]) -> None:
     pairs = normalised(SCUFFING, [*sent, ("<i>x</i>", "<i>y</i>")])
     shown = views.page(Asked("/scuffing", pairs))
@@ -287,6 +287,7 @@ def test_a_page_with_a_theme_has_figures_of_that_theme_alone(theme: str) -> None
     assert "<source" not in html
 
 
+@pytest.mark.ci
 def test_figures_of_a_page_are_drawn_from_the_kept_answer() -> None:
     case = asked("xue-pair-1-scuffing")
     (kept,) = views.page(case).keep.values()
@@ -314,6 +315,7 @@ def long_case(torque: str) -> dict[str, str]:
     return fields | {"coupling.teeth": "400", "coupling.pitch_errors_um": errors, "operation.torque_n_m": torque}
 
 
+@pytest.mark.ci
 def test_figures_of_a_posted_case_are_addressed_by_its_hash(client: httpx.Client) -> None:
     fields = long_case("3000")
     html = client.post("/coupling", data=fields).text
@@ -352,6 +354,7 @@ def test_missing_headline_says_what_it_needs() -> None:
 
 
 @pytest.mark.parametrize("name", CASES)
+@pytest.mark.ci
 def test_report_has_every_part(name: str) -> None:
     shown = views.report(asked(name, project="<b>P</b>", notes="n" * 500), "http://host")
     html = shown.content.decode()
@@ -449,6 +452,7 @@ def test_half_a_letter_in_a_file_does_no_harm(client: httpx.Client) -> None:
     assert client.post("/case", files={"file": ("case.json", file)}, follow_redirects=True).status_code == 422
 
 
+@pytest.mark.ci
 def test_pages_answer_by_get_with_their_policies(client: httpx.Client) -> None:
     strict = {"/", "/coupling", f"/coupling{QUERY}", "/manual/coupling"}
     alone = {f"/coupling/{view}{QUERY}" for view in ("report", "figures/losses.svg", "result.json")}
@@ -484,6 +488,7 @@ def test_other_sites_start_no_studies(client: httpx.Client) -> None:
     assert client.post("/coupling/vary", content=address.partition("?")[2], headers=form).status_code == 403
 
 
+@pytest.mark.ci
 def test_no_policy_allows_scripts_in_the_page_or_another_base(client: httpx.Client) -> None:
     figure = client.post("/v1/coupling/figures/losses.svg", json=examples()[COUPLING].request)
     pages = [client.get(path) for path in ("/", "/healthz", "/docs", f"/coupling/report{QUERY}")]

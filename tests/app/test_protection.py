@@ -20,12 +20,13 @@ def answer_to(client: httpx.Client, sent: bytes) -> bytes:
         return b"".join(iter(lambda: connection.recv(65536), b""))
 
 
-def test_an_old_client_gets_no_chunks(client: httpx.Client) -> None:
+@pytest.mark.ci
+def test_an_old_client_gets_no_chunks(served: httpx.Client) -> None:
     request = examples()["pahl-axial-displacement"]
     axis = {"path": "operation.speed_rpm", "start": 100, "stop": 200, "count": 5}
     body = json.dumps({"endpoint": request.endpoint, "request": request.request, "vary": [axis]}).encode()
     head = b"POST /v1/sweep HTTP/1.0\r\nContent-Type: application/json\r\nContent-Length: %d\r\n\r\n" % len(body)
-    headers, _, content = answer_to(client, head + body).partition(b"\r\n\r\n")
+    headers, _, content = answer_to(served, head + body).partition(b"\r\n\r\n")
     assert b" 200 " in headers
     assert b"transfer-encoding" not in headers.lower()
     assert json.loads(content.splitlines()[-1])["type"] == "end"
@@ -40,20 +41,22 @@ def test_a_strange_request_id_is_replaced(client: httpx.Client, sent: str) -> No
     assert client.get("/healthz", headers={"X-Request-ID": sent}).headers["x-request-id"] != sent
 
 
-def test_headers_of_every_answer(client: httpx.Client) -> None:
+@pytest.mark.ci
+def test_headers_of_every_answer(served: httpx.Client) -> None:
     for path in ("/healthz", "/nothing", "/docs"):
-        headers = client.get(path).headers
+        headers = served.get(path).headers
         assert headers["x-content-type-options"] == "nosniff"
         assert headers["server-timing"].startswith("total;dur=")
         assert "server" not in headers
 
 
+@pytest.mark.ci
 @pytest.mark.parametrize("announced", [True, False])
-def test_large_bodies(client: httpx.Client, *, announced: bool) -> None:
+def test_large_bodies(served: httpx.Client, *, announced: bool) -> None:
     size = Settings().max_body_bytes + 1
     content = b" " * size if announced else (b" " * 65536 for _ in range(size // 65536 + 2))
     headers = {"Content-Type": "application/json"}
-    response = client.post("/v1/coupling", content=content, headers=headers)
+    response = served.post("/v1/coupling", content=content, headers=headers)
     assert response.status_code == 413
     assert response.headers["content-type"] == "application/problem+json"
     problem = response.json()
@@ -62,8 +65,9 @@ def test_large_bodies(client: httpx.Client, *, announced: bool) -> None:
     assert problem["detail"] == f"The request body is larger than {size - 1} bytes"
 
 
-def test_large_headers(client: httpx.Client) -> None:
-    response = client.get("/healthz", headers={"X-Padding": "x" * 600_000})
+@pytest.mark.ci
+def test_large_headers(served: httpx.Client) -> None:
+    response = served.get("/healthz", headers={"X-Padding": "x" * 600_000})
     assert response.status_code == 400
 
 
@@ -71,12 +75,13 @@ NO_CHUNK = b"POST /v1/coupling HTTP/1.1\r\nHost: a\r\nTransfer-Encoding: chunked
 
 
 @pytest.mark.parametrize("earlier", [1, 3])
-def test_a_refused_request_does_not_cost_the_answers_to_those_before(client: httpx.Client, earlier: int) -> None:
+@pytest.mark.ci
+def test_a_refused_request_does_not_cost_the_answers_to_those_before(served: httpx.Client, earlier: int) -> None:
     example = examples()["pahl-axial-displacement"]
     body = json.dumps(example.request).encode()
     head = f"POST {example.endpoint} HTTP/1.1\r\nHost: a\r\nContent-Type: application/json\r\n"
     calculation = f"{head}Content-Length: {len(body)}\r\n\r\n".encode() + body
-    answers = answer_to(client, calculation * earlier + NO_CHUNK).split(b"HTTP/1.1 ")[1:]
+    answers = answer_to(served, calculation * earlier + NO_CHUNK).split(b"HTTP/1.1 ")[1:]
     assert [each[:3] for each in answers] == [*[b"200"] * earlier, b"400"]
 
 

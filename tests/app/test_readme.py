@@ -10,6 +10,8 @@ import pytest
 
 from app.evaluate import answer
 
+pytestmark = pytest.mark.ci
+
 README = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
 SNIPPETS = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
 ADDRESS = "http://127.0.0.1:8000"

@@ -19,7 +19,7 @@ from app.pages.results import flattened
 from app.schema.fields import leaf_at
 from tests.support.pages import asked
 
-pytestmark = pytest.mark.usefixtures("without_images")
+pytestmark = [pytest.mark.ci, pytest.mark.usefixtures("without_images")]
 
 SCUFFING = "starter-industrial-scuffing"
 SHORT = (SCUFFING, "starter-coupling-crowning", "starter-compressor-gear", "starter-generator-gear-drive-train")

@@ -36,6 +36,7 @@ def result_of(found: Asked) -> tuple[list[dict[str, Any]], str]:
         pytest.param("pahl-sleeve-orbit", marks=pytest.mark.slow),
     ],
 )
+@pytest.mark.ci
 def test_the_table_says_what_the_study_says(name: str) -> None:
     found = asked(name)
     lines, page = result_of(found)

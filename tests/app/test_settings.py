@@ -80,6 +80,7 @@ def started_with(server: str, **variables: str) -> subprocess.CompletedProcess[s
 
 
 @pytest.mark.parametrize("server", ["app", "uvicorn"])
+@pytest.mark.ci
 def test_a_wrong_setting_is_one_line(server: str) -> None:
     outcome = started_with(server, PORT="99999", QEUE="3")
     assert outcome.returncode == 1

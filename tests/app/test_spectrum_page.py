@@ -189,6 +189,7 @@ SAID = {
 }
 
 
+@pytest.mark.ci
 def test_the_page_shows_what_the_study_says() -> None:
     lines, page = studied(checked(SpectrumPage, asked(COUPLING, **SAID)))
     (limit,) = lines[-1]["limits"]
@@ -207,6 +208,7 @@ def test_no_name_of_a_case_is_a_formula_in_a_spreadsheet() -> None:
     assert b"\n'=1+1," in pages.file(study, told(study), "losses", "csv")
 
 
+@pytest.mark.ci
 def test_a_probability_that_nobody_knows_is_no_number() -> None:
     """The limit is so far away that the computed probability has no meaning.
 
@@ -281,6 +283,7 @@ def test_hostile_queries_are_no_errors_of_the_service(client: httpx.Client) -> N
             assert "<script>;" not in page.text
 
 
+@pytest.mark.ci
 def test_the_page_works_from_the_case(client: httpx.Client) -> None:
     case = client.get("/coupling?" + urlencode(CASE))
     address = unescape(re.findall(r'href="(/coupling/spectrum\?[^"]+)"', case.text)[0])
@@ -327,6 +330,7 @@ def parts_of_report(study: StudyPage, lines: list[dict[str, Any]]) -> list[str]:
 
 
 @pytest.mark.usefixtures("without_images")
+@pytest.mark.ci
 def test_the_report_tells_how_many_points_are_calculated_until_it_comes() -> None:
     study = checked(SpectrumPage, asked(COUPLING, **SAID))
     total = study.study.total
@@ -342,6 +346,7 @@ def test_the_report_tells_how_many_points_are_calculated_until_it_comes() -> Non
     assert (first + last).count("<body>") == (first + last).count("</body>") == 1
 
 
+@pytest.mark.ci
 def test_the_report_of_a_study_that_ends_early_says_why() -> None:
     study = checked(SpectrumPage, asked(COUPLING, **SAID))
     ended = {"type": "error", "code": "deadline_exceeded", "message": "It took too long.", "done": 5}
@@ -350,6 +355,7 @@ def test_the_report_of_a_study_that_ends_early_says_why() -> None:
     assert "<main" not in last
 
 
+@pytest.mark.ci
 def test_the_report_has_a_section_of_its_own(client: httpx.Client) -> None:
     query = urlencode([*CASE, *SAID.items(), ("project", "Pump 7")])
     page = client.get(f"/coupling/spectrum?{query}")

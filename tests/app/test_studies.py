@@ -197,6 +197,7 @@ def test_corners_on_the_workers(post: Post) -> None:
     assert points[1]["out"] == [value_at(single, path) for path in outputs]
 
 
+@pytest.mark.ci
 def test_a_design_on_the_workers(post: Post) -> None:
     worked = {"request.friction_coefficient": 0.04, "request.temperatures.bulk_c": 95.0}
     worked["request.pinion_shaft.sections.3.outer_diameter_mm"] = 238.8

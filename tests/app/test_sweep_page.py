@@ -102,6 +102,7 @@ def test_the_crowning_that_forgives_is_a_map_of_17_by_11() -> None:
 
 
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
+@pytest.mark.ci
 def test_numbers_are_varied_and_outputs_shown_by_their_names_alone(calculation: Calculation) -> None:
     """The name of a number is enough to vary this number, and the name of an output is enough to show this output.
 
@@ -163,6 +164,7 @@ def test_the_figures_numbers_are_the_points() -> None:
     assert ends == list(zip(found.max(axis=0), found[1], strict=True)), "the worst, and that of the case's own slope"
 
 
+@pytest.mark.ci
 def test_the_best_point_is_the_one_of_the_sweeps_end(client: httpx.Client) -> None:
     study, _ = checked(asked(LOADS, **MAP, **{"y.count": "7"}))
     lines = [json.loads(line) for line in client.get(study.view(".ndjson")).text.splitlines()]
@@ -211,6 +213,7 @@ def test_the_worst_is_the_other_end_of_the_best(greatest: bool) -> None:
 
 
 @pytest.mark.parametrize("sizes", [(5,), (5, 3), (5, 7), (2,), (2, 7)])
+@pytest.mark.ci
 def test_figures_are_drawn_while_few_or_no_points_are_there(sizes: tuple[int, ...]) -> None:
     whole = grid(*sizes)
     for count in (0, 1, whole.values.size // 2):
@@ -314,6 +317,7 @@ def test_hostile_queries_get_a_clear_page(client: httpx.Client, query: str) -> N
     assert body.rstrip().endswith("</html>")
 
 
+@pytest.mark.ci
 def test_a_page_grows_and_ends_with_the_same_points_as_its_files(client: httpx.Client) -> None:
     study, _ = checked(study_of(STUDIES[1]))
     page = client.get(study.view(""))
@@ -337,6 +341,7 @@ def test_empty_fields_are_dropped_by_a_redirect(client: httpx.Client) -> None:
     )
 
 
+@pytest.mark.ci
 def test_figures_are_files(client: httpx.Client) -> None:
     axes = {"x": "operation.misalignment_deg", "y": "operation.axial_velocity_mm_per_s"}
     links = SweepPage(asked(COUPLING, **axes, **{"x.count": "3", "y.count": "7"}))

@@ -199,6 +199,7 @@ def _is_number(text: str) -> bool:
 
 
 @pytest.mark.parametrize("name", FIRST.values(), ids=FIRST)
+@pytest.mark.ci
 def test_every_number_that_a_page_prints_may_be_typed_into_its_form(name: str) -> None:
     """If a number of a page is typed into the form of this page, the form reads the same number or asks back.
 

@@ -49,6 +49,7 @@ def value_of(address: str, output: str) -> float:
     return getattr(getattr(solved(found.calculation, found.pairs, None).response, group), name)
 
 
+@pytest.mark.ci
 def test_corners_name_both_ends_of_every_output_and_lead_there() -> None:
     _, lines, page = studied(CornersPage)
     extremes = {line["output"]: line for line in lines if line["type"] == "extremes"}
@@ -64,6 +65,7 @@ def test_corners_name_both_ends_of_every_output_and_lead_there() -> None:
                 assert value_of(address, SAFETY) == value
 
 
+@pytest.mark.ci
 def test_the_worst_corner_is_that_of_least_safety_and_its_load_is_drawn() -> None:
     study, lines, page = studied(CornersPage)
     points = [line for line in lines if line["type"] == "point"]
@@ -89,6 +91,7 @@ def test_the_worst_corner_is_that_of_least_safety_and_its_load_is_drawn() -> Non
     assert result.leads[1].address.startswith("/drive-train/report?")
 
 
+@pytest.mark.ci
 def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> None:
     study, lines, page = studied(DesignPage)
     end = lines[-1]
@@ -122,6 +125,7 @@ def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> 
     assert at_worst.safety.blok_flank == wanted["objective"]
 
 
+@pytest.mark.ci
 def test_the_sheet_names_the_end_where_material_is_removed() -> None:
     """The lead chart is lowest at the end that the grinding sheet names, for both signs of the helix slope.
 
@@ -139,6 +143,7 @@ def test_the_sheet_names_the_end_where_material_is_removed() -> None:
         assert trace.y[trace.x == low] - trace.y[trace.x == high] == pytest.approx(-30.0)
 
 
+@pytest.mark.ci
 def test_the_best_so_far_is_shown_while_the_search_runs_and_when_it_ends_early() -> None:
     study, lines, _ = studied(DesignPage)
     trials = [line for line in lines if line["type"] == "trial"]
@@ -204,6 +209,7 @@ def test_a_study_that_breaks_off_says_why(page: type[StudyPage]) -> None:
     assert "&lt;b&gt;too long&lt;/b&gt;" in text.decode()
 
 
+@pytest.mark.ci
 def test_the_report_of_a_search_has_the_grinding_sheet() -> None:
     study, lines, page = studied(DesignPage)
     text = unescape(pages.report(study, lines, "").decode())
@@ -216,6 +222,7 @@ def test_the_report_of_a_search_has_the_grinding_sheet() -> None:
     assert "<p>Only the working flanks are corrected." in text
 
 
+@pytest.mark.ci
 def test_links_alone_lead_from_a_unit_to_its_worst_corner_and_to_what_to_grind(client: httpx.Client) -> None:
     page = unescape(client.get(small().page).text)
     for offer in study_links(BY_PATH["/v1/drive-train"]):

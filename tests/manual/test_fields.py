@@ -78,15 +78,6 @@ def test_ten_drawn_fields_lead_to_the_line_that_declares_them() -> None:
         assert re.search(rf"^class {kind}\b.*?^    (?:{name}: |def {name}\()", source, re.MULTILINE | re.DOTALL)
 
 
-def test_no_class_of_a_field_is_made_by_machinery() -> None:
-    """The table names a module and a class for each field, and the source of the module defines the class."""
-    for name in {each.cells[10].strip("`") for each in entries()}:
-        module, _, kind = name.rpartition(".")
-        source = ROOT / f"{module.replace('.', '/')}.py"
-        source = source if source.exists() else ROOT / module.replace(".", "/") / "__init__.py"
-        assert re.search(rf"^class {kind}\b", source.read_text("utf-8"), re.MULTILINE), name
-
-
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 def test_every_field_has_a_row_to_which_a_link_leads(calculation: Any) -> None:
     anchors = {each.anchor for each in entries()}

@@ -12,7 +12,6 @@ from typing import Any
 from xml.etree import ElementTree as ET
 
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 
 from app.errors import Unprocessable
@@ -23,6 +22,7 @@ from app.rexs.model import Attribute
 from app.rexs.unit import gear_unit
 from tests.rexs.units import Unit, three_stages, turbo_unit
 from tests.support.pages import asked_by
+from tests.support.properties import examples
 
 MOST_BYTES = 20_000_000
 ANSWER = {
@@ -158,6 +158,7 @@ def test_broken_graphs_are_findings(damage: str) -> None:
     assert expected in {each["code"] for each in found["findings"]}
 
 
+@pytest.mark.ci
 def test_many_components_and_shafts_cost_little() -> None:
     shafts = "".join(f'<component id="{i}" type="shaft"/>' for i in range(100_000))
     chain = "".join(
@@ -229,7 +230,7 @@ def units(draw: st.DrawFn) -> Unit:
     return unit
 
 
-@given(units())
+@examples(100, 1000, units())
 def test_random_models_come_back(unit: Unit) -> None:
     written = json.loads(unit.json())
     file, found = read(unit.json(), MOST_BYTES)
@@ -278,7 +279,8 @@ def in_base64(content: bytes) -> bytes:
     return ET.tostring(root)
 
 
-@given(models())
+@examples(100, 1000, models())
+@pytest.mark.ci
 def test_all_forms_of_a_model_say_the_same(unit: Unit) -> None:
     expected = read(unit.json(), MOST_BYTES).model
     for content in (unit.xml(), unit.zipped(), unit.xml().replace(b"<model ", b'<model xmlns="urn:a" ')):
@@ -300,7 +302,8 @@ def test_all_forms_of_a_model_say_the_same(unit: Unit) -> None:
                 assert coded.components[id_].attributes[name].value == attribute.value
 
 
-@given(models())
+@examples(100, 1000, models())
+@pytest.mark.ci
 def test_nothing_is_lost_when_results_are_written(unit: Unit) -> None:
     last = len(unit.components)
     for content in (unit.xml(), unit.json()):
@@ -331,7 +334,7 @@ SNIPPETS = [
 ]
 
 
-@given(st.data())
+@examples(100, 1000, st.data())
 def test_a_damaged_file_is_read_or_refused_wherever_one_is_taken(data: st.DataObject) -> None:
     content = data.draw(st.sampled_from(FORMS))
     for _ in range(data.draw(st.integers(1, 3))):

@@ -45,6 +45,7 @@ def test_a_file_from_a_form(client: httpx.Client) -> None:
     )
 
 
+@pytest.mark.ci
 def test_every_request_is_answered_or_says_what_it_lacks(client: httpx.Client) -> None:
     (stage,) = client.post("/v1/rexs", content=turbo_unit().xml(), headers=XML).json()["stages"]
     assert len(stage["requests"]) == 4
@@ -76,6 +77,7 @@ def results(client: httpx.Client, stage: int, request: dict[str, Any] | None = N
     return client.post(f"/v1/rexs/results?stage={stage}", files=files)
 
 
+@pytest.mark.ci
 def test_results_come_back_in_the_file(client: httpx.Client) -> None:
     (stage,) = client.post("/v1/rexs", content=turbo_unit().xml(), headers=XML).json()["stages"]
     answer = results(client, stage["id"])
@@ -93,6 +95,7 @@ def test_results_come_back_in_the_file(client: httpx.Client) -> None:
 FIELD = '<input id="rexs-file" name="file" type="file"'
 
 
+@pytest.mark.ci
 def test_the_page_leads_to_every_calculation(client: httpx.Client) -> None:
     page = client.post("/rexs", files={"file": ("unit.rexs", turbo_unit().xml())}, follow_redirects=True)
     assert page.status_code == 200
@@ -154,6 +157,7 @@ def test_the_page_leads_to_the_load_spectrum(client: httpx.Client) -> None:
     assert "1 machine in 2 cases" in answer.text
 
 
+@pytest.mark.ci
 def test_the_command_prints_the_answer(
     tmp_path: Path, client: httpx.Client, capsys: pytest.CaptureFixture[str]
 ) -> None:

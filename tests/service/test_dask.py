@@ -25,7 +25,7 @@ from tests.support.dask_cluster import DaskProcesses, running_cluster
 from tests.support.server import ROOT, Server, free_port, running_server
 from tests.support.studies import Planner, lines_of, study_of, timeless
 
-pytestmark = pytest.mark.service
+pytestmark = [pytest.mark.service, pytest.mark.ci]
 
 COUPLING = examples()["pahl-axial-displacement"]
 PREPARED_S = 400.0  # every worker loads every kernel before its first study

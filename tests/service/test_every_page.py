@@ -16,7 +16,7 @@ from app.pages.templating import example_link, examples_of, page_path
 from tests.rexs.units import three_stages, turbo_unit
 from tests.support.browsing import DESK, PHONE, address_of, overflow, violations
 
-pytestmark = [pytest.mark.service, pytest.mark.slow]
+pytestmark = pytest.mark.service
 
 READING = ("/", "/docs", "/manual", "/manual/functions", *(f"/manual/{name}" for name in NAMES))
 OPEN = "document.querySelectorAll('details').forEach(part => { part.open = true; })"
@@ -63,8 +63,17 @@ def faults(page: Page) -> dict[str, object]:
     return found
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("name", PAGES)
+def kind_of(name: str) -> str:
+    """Return what a page is: the kind behind the comma, a page to read, or an example."""
+    return "reading" if name.startswith("/") else name.partition(", ")[2]
+
+
+FIRST = {kind_of(name): name for name in reversed(PAGES)}.values()
+ONE_OF_EACH_KIND = [pytest.param(name, marks=pytest.mark.ci if name in FIRST else ()) for name in PAGES]
+
+
+@pytest.mark.parametrize("scheme", ["light", pytest.param("dark", marks=pytest.mark.slow)])
+@pytest.mark.parametrize("name", ONE_OF_EACH_KIND)
 def test_a_page_fits_and_everybody_can_use_it(visit: Callable[..., Page], name: str, scheme: str) -> None:
     page = visit(PAGES[name], color_scheme=scheme)
     if name == "/docs":

@@ -31,7 +31,7 @@ from tests.support.server import (
     workers,
 )
 
-pytestmark = pytest.mark.service
+pytestmark = [pytest.mark.service, pytest.mark.ci]
 
 KILLS = 8
 KILL_EVERY_S = 2.0

@@ -21,6 +21,7 @@ from tests.support.studies import study_of
 
 pytestmark = [
     pytest.mark.service,
+    pytest.mark.ci,
     pytest.mark.skipif(shutil.which("nginx") is None, reason="nginx is not installed"),
 ]
 

@@ -58,6 +58,7 @@ def count_progress(address: str) -> int:
     return sum(0 < int(each) < 100 for each in found)
 
 
+@pytest.mark.ci
 def test_cold_start_answers_coupling_first(tmp_path: Path) -> None:
     with started_server(environment={"NUMBA_CACHE_DIR": str(tmp_path)}, log_level="error") as (process, address):
         wait_until_open(address)
@@ -96,6 +97,7 @@ def test_ends_at_any_moment_of_a_cold_start(tmp_path: Path, number: signal.Signa
     assert "Traceback" not in log.read_text()
 
 
+@pytest.mark.ci
 def test_a_second_interrupt_leaves_no_traceback(tmp_path: Path) -> None:
     log = tmp_path / "log"
     with running_server(log=log) as (process, _):
@@ -106,6 +108,7 @@ def test_a_second_interrupt_leaves_no_traceback(tmp_path: Path) -> None:
     assert "Traceback" not in log.read_text()
 
 
+@pytest.mark.ci
 def test_a_port_in_use_is_told() -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = taken.getsockname()[1]
@@ -249,6 +252,7 @@ exec "$@"
 
 
 @pytest.mark.skipif(os.getuid() != 0, reason="root alone can remount folders")
+@pytest.mark.ci
 def test_needs_nothing_to_be_writable_but_the_cache(tmp_path: Path) -> None:
     """Only the cache can be written: there is no home folder, and the temporary folder is read-only."""
     copy_of_cache(tmp_path)

@@ -37,7 +37,7 @@ from tests.support.server import (
 )
 from tests.support.studies import study_of
 
-pytestmark = pytest.mark.service
+pytestmark = [pytest.mark.service, pytest.mark.ci]
 
 SWEEP = "/v1/sweep"
 SLOPE = "modifications.helix_slope_um"

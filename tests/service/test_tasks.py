@@ -12,7 +12,7 @@ from app.pages.templating import examples_of
 from tests.service.test_new_user import User
 from tests.support.browsing import address_of
 
-pytestmark = [pytest.mark.service, pytest.mark.slow]
+pytestmark = [pytest.mark.service, pytest.mark.ci]
 
 CROWNING = re.compile("^Which crowning forgives")
 

@@ -11,6 +11,8 @@ import pytest
 import solvers
 from solvers.compiled import kernel
 
+pytestmark = pytest.mark.ci
+
 SOURCES = Path(solvers.__file__).parent
 PROGRAM = "from {module} import outer; print(outer(1.0), len(outer.stats.cache_hits))"
 

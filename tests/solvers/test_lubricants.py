@@ -3,10 +3,10 @@
 from math import exp, log
 
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 
 from solvers.lubricants import Lubricant
+from tests.support.properties import examples
 
 PAPER = Lubricant()
 
@@ -46,7 +46,7 @@ def test_density() -> None:
     assert Lubricant(compressible=False).density_at(1e9, 460.0) == 870.0
 
 
-@given(st.floats(0.0, 3e9), st.floats(300.0, 500.0))
+@examples(100, 1000, st.floats(0.0, 3e9), st.floats(300.0, 500.0))
 def test_viscosity_grows_with_pressure_and_falls_with_temperature(pressure: float, temperature: float) -> None:
     here = PAPER.viscosity_at(pressure, temperature)
     assert PAPER.viscosity_at(pressure + 1e7, temperature) > here

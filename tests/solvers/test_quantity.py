@@ -14,6 +14,7 @@ from solvers.coupling.inputs import Coupling
 from solvers.errors import InvalidInput
 from solvers.guards import checked
 from solvers.quantity import quantity, record, to_dict
+from tests.support.properties import one_per_endpoint
 
 NAMES = (
     "pahl-heavily-crowned",
@@ -69,7 +70,7 @@ def test_inputs_and_results_print_in_a_few_lines(name: str) -> None:
         assert len(repr(each)) < 2000
 
 
-@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize("name", one_per_endpoint(NAMES))
 def test_the_dictionary_of_a_result_is_the_service_s_answer(
     name: str, post: Callable[[str, object], httpx.Response]
 ) -> None:

@@ -74,6 +74,7 @@ def test_corners_go_on_with_the_same_lines() -> None:
     assert rest[-1]["points"] == 2
 
 
+@pytest.mark.ci
 def test_studies_say_the_same_on_any_number_of_processes() -> None:
     for planner, body in (
         (Corners, {"ranges": [FRICTION, RESPONSE], "outputs": [K]}),
@@ -186,6 +187,7 @@ def search(judge: Callable[[FloatArray], FloatArray | None], start: list[float],
     return places
 
 
+@pytest.mark.ci
 def test_a_search_asks_for_each_place_once() -> None:
     """The objective has a ridge, and a corner of the square has no solution. Even then the search repeats no point."""
 
@@ -205,6 +207,7 @@ def test_a_design_without_start_ends_with_an_error() -> None:
     assert (error["type"], error["code"]) == ("error", "no_start")
 
 
+@pytest.mark.ci
 def test_a_trial_without_answer_is_worse_than_all() -> None:
     """A thinner oil makes the journal more eccentric, until the film no longer carries the load.
 
@@ -226,6 +229,7 @@ def test_a_trial_without_answer_is_worse_than_all() -> None:
 
 
 @pytest.mark.parametrize("scale", [1e-3, 1.0, 1e9])
+@pytest.mark.ci
 def test_a_search_keeps_away_from_where_there_is_no_solution(scale: float) -> None:
     """The search finds the best point at 0.6 for an objective of any size, although there is no solution beyond 0.7."""
     tried: list[tuple[float, float | None]] = []

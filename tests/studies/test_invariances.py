@@ -39,6 +39,7 @@ def draw_parts(random: np.random.Generator) -> dict[str, Any]:
 
 
 @seeds(3, 60)
+@pytest.mark.ci
 def test_order_of_cases_does_not_matter(random: np.random.Generator) -> None:
     cases, parts = draw_cases(random), draw_parts(random)
     order = random.permutation(len(cases))

@@ -1,18 +1,18 @@
-"""Replace the worker processes of studies by pools in the process of the test.
-
-One pool calculates every answer at once. The other pool gives the answers that a test prescribes.
-"""
+"""Pools in the process of the test: two calculate at once, the third gives the answers that a test prescribes."""
 
 import asyncio
+import pickle
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from app.settings import Settings
 from app.studies.points import Chunk, Point, Question
 from app.studies.requests import Overrides
+from app.workers.pool import Outcome, Pool
 
 
 class InlinePool:
-    """This pool calculates in the process of the test as soon as a calculation is submitted."""
+    """This pool of a study calculates as soon as a calculation is submitted."""
 
     def __init__(self, slots: int = 1) -> None:
         self.slots = slots
@@ -20,6 +20,24 @@ class InlinePool:
     def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
         outcome: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
         outcome.set_result(function(*arguments))
+        return outcome
+
+
+class InlineWorkers(Pool):
+    """The service's pool without processes: a call is pickled as for a worker, and ends before `submit` returns."""
+
+    def __init__(self, settings: Settings) -> None:
+        super().__init__(settings, ())
+        self.alive = self.size
+
+    def submit(self, owner: object, function: Callable[..., Any], *arguments: Any, is_single: bool = True) -> Outcome:
+        del owner, is_single
+        function, arguments = pickle.loads(pickle.dumps((function, arguments)))  # noqa: S301  of this test
+        outcome: Outcome = asyncio.get_running_loop().create_future()
+        try:
+            outcome.set_result(pickle.loads(pickle.dumps(function(*arguments))))  # noqa: S301
+        except Exception as error:  # noqa: BLE001  any error of the call
+            outcome.set_exception(error)
         return outcome
 
 

@@ -1,12 +1,14 @@
-"""Check properties on random examples: on few examples by default, and on many examples if slow tests are run."""
+"""Check properties on random examples: at least three by default, `few` with the marker `ci`, `many` with `slow`."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis.strategies import SearchStrategy
 
+from app.examples import examples as shown
 from solvers.errors import InvalidInput, NoSolution
 
 Test = Callable[[int], None]
@@ -55,7 +57,24 @@ def seeds(few: int, many: int) -> Callable[[Callable[[np.random.Generator], None
 
 
 def _on(few: int, many: int) -> pytest.MarkDecorator:
-    """Return a mark that runs a test on few examples, and also on many examples if slow tests are run."""
-    return pytest.mark.parametrize(
-        "count", [pytest.param(few, id="few"), pytest.param(many, id="many", marks=pytest.mark.slow)]
-    )
+    default = pytest.param(min(few, max(3, few // 5)), id="default")
+    marked = [pytest.param(few, id="few", marks=pytest.mark.ci), pytest.param(many, id="many", marks=pytest.mark.slow)]
+    return pytest.mark.parametrize("count", [default, *marked])
+
+
+def first(count: int, values: Iterable[Any]) -> list[Any]:
+    """Return parameters of a test: the first `count` values by default, the others with the marker `ci`."""
+    found = list(values)
+    others = (value if isinstance(value, tuple) else (value,) for value in found[count:])
+    return [*found[:count], *(pytest.param(*value, marks=pytest.mark.ci) for value in others)]
+
+
+def one_per_endpoint(names: Iterable[str]) -> list[Any]:
+    """Return names of examples as parameters: one of each endpoint by default, the others with the marker `ci`."""
+    seen: set[str] = set()
+    found = []
+    for name in sorted(names):
+        endpoint = shown()[name].endpoint
+        found.append(pytest.param(name, marks=pytest.mark.ci) if endpoint in seen else name)
+        seen.add(endpoint)
+    return found

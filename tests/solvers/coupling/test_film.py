@@ -4,7 +4,6 @@ from math import exp, inf, radians
 
 import numpy as np
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
@@ -21,6 +20,7 @@ from solvers.coupling.lubrication import (
 from solvers.coupling.model import solve
 from solvers.published.pahl import pahl_coupling
 from tests.support.changes import changed
+from tests.support.properties import examples
 
 INLETS: tuple[InletModel, ...] = ("face", "travel", "infinite")
 LOWEST = 0.05  # of the default curve of mixed friction
@@ -56,7 +56,7 @@ def test_inlet_factor_limits() -> None:
     assert inlet_factor(0.01999999) == pytest.approx(inlet_factor(0.02000001), rel=2e-3)
 
 
-@given(st.floats(0.0, 100.0), st.floats(1e-3, 1.0))
+@examples(100, 1000, st.floats(0.0, 100.0), st.floats(1e-3, 1.0))
 def test_inlet_factor_rises_with_the_inlet(inlet: float, step: float) -> None:
     assert 0.0 <= inlet_factor(inlet) <= inlet_factor(inlet + step) + 1e-12 <= 1.0 + 1e-12
 
@@ -120,7 +120,9 @@ def test_lubrication_belongs_to_the_tilt_position_whatever_the_rotor_angle() -> 
     assert len(films) == 1
 
 
-@given(
+@examples(
+    100,
+    1000,
     overlap=st.floats(0.01, 20.0),
     capacity=st.floats(1e-3, 20.0),
     mixed=st.floats(0.05, 0.1),
@@ -142,7 +144,9 @@ def test_friction_is_continuous_across_the_overlap_boundaries(overlap: float, ca
     assert below == pytest.approx(above, rel=1e-7)
 
 
-@given(
+@examples(
+    100,
+    1000,
     overlap=st.floats(0.01, 10.0),
     capacity=st.floats(0.0, 5.0),
     better=st.floats(0.0, 2.0),

@@ -4,7 +4,6 @@ from math import asin, cos, hypot, pi, radians, sin, sqrt, tan
 
 import numpy as np
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import root
 
@@ -18,6 +17,7 @@ from tests.support.changes import changed
 from tests.support.couplings import random_pitch_errors
 from tests.support.outcomes import unsolved
 from tests.support.plain_coupling import PlainMesh, midpoints
+from tests.support.properties import examples
 
 ALPHA = radians(20.0)
 STIFFNESS = 2.8e8
@@ -180,7 +180,9 @@ def test_coaxial_shafts_that_separate_are_pulled_with_the_whole_limit(arrangemen
     assert result.force == pytest.approx(sign * result.coaxial_limit, rel=1e-9)
 
 
-@given(
+@examples(
+    100,
+    1000,
     misalignment=st.floats(1e-3, 3.0),
     velocity=st.floats(-5e-3, 5e-3),
     ratio=st.floats(0.3, 12.0),

@@ -4,7 +4,6 @@ from math import cos, pi, radians, sin, sqrt
 
 import numpy as np
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.optimize import brentq, minimize
@@ -61,7 +60,9 @@ def test_many_teeth_approach_the_continuous_half_zone(misalignment: float) -> No
     assert load.max_tangential_force == pytest.approx(2 * amplitude * sin(zone) ** 2, rel=1e-5)
 
 
-@given(
+@examples(
+    100,
+    1000,
     misalignment=st.floats(0.0, 3.0),
     size=st.floats(0.0, 0.9),
     direction=st.floats(0.0, 2 * pi),

@@ -5,7 +5,6 @@ from math import radians
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from solvers.arrays import FloatArray
@@ -175,8 +174,7 @@ def test_a_unit_turned_or_mirrored_answers_alike(inputs: DriveTrainInputs, angle
         assert other.safety == pytest.approx(one.safety, rel=1e-9)
 
 
-@settings(max_examples=25)
-@given(units())
+@examples(25, 250, units())
 def test_forces_and_moments_are_in_balance(inputs: DriveTrainInputs) -> None:
     found = solve(inputs)
     assert found.balance.force_error < 1e-10
@@ -193,10 +191,8 @@ def test_forces_and_moments_are_in_balance(inputs: DriveTrainInputs) -> None:
     assert total == pytest.approx(found.misalignment.shaft_slope, abs=2e-12)
 
 
-@pytest.mark.slow
-@settings(max_examples=1000)
-@given(units())
-def test_a_thousand_random_units_converge_or_say_so(inputs: DriveTrainInputs) -> None:
+@examples(15, 1000, units())
+def test_random_units_converge_or_say_so(inputs: DriveTrainInputs) -> None:
     try:
         residual = settle(inputs, prepare(inputs)).residual
     except NoSolution as error:

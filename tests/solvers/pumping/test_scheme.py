@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import assume
 from hypothesis import strategies as st
 
 from solvers.arrays import FloatArray
@@ -19,9 +19,9 @@ from solvers.pumping.gas.gas_dynamics import march
 from solvers.pumping.gas.leakage import Stage, Walls, implicit_stage
 from solvers.pumping.gas.riemann import State, flux, hllc, ram_pressure, reservoir_face
 from solvers.pumping.gas.step import empty_cells
+from tests.support.properties import examples
 
 AIR = gas(Ambient())
-RANDOM = settings(max_examples=100, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
 
 
 def smooth_march(cells: int, *, gap: float = 0.0, order: int = 2) -> tuple[Record, int]:
@@ -93,8 +93,7 @@ def test_hllc_keeps_a_contact_at_rest() -> None:
     assert hllc(1.4, State(1.0, 0.0, 1e5), State(3.0, 0.0, 1e5)) == pytest.approx((0.0, 1e5, 0.0), abs=1e-9)
 
 
-@RANDOM
-@given(st.floats(0.2, 6), st.floats(-1.5, 1.5), st.floats(0.2, 10))
+@examples(100, 1000, st.floats(0.2, 6), st.floats(-1.5, 1.5), st.floats(0.2, 10))
 def test_reservoir_face(density: float, mach: float, pressure: float) -> None:
     rho, p = density * AIR.density, pressure * AIR.pressure
     c = np.sqrt(1.4 * p / rho)
@@ -129,8 +128,7 @@ def test_nozzle_law_is_exact_on_both_sides_of_its_series(exponent: float, drop: 
     assert flux_squared(some, 1e5, 1.2, drop)[0] == pytest.approx(float(exact), rel=3e-13)
 
 
-@RANDOM
-@given(st.floats(1.0, 8.0), st.floats(0.1, 5.0))
+@examples(100, 1000, st.floats(1.0, 8.0), st.floats(0.1, 5.0))
 def test_nozzle_derivatives(ratio: float, density: float) -> None:
     up, down = ratio * 1e5, 1e5
     assume(abs(ratio - 1 / AIR.critical_ratio) > 1e-3)
@@ -182,8 +180,7 @@ def cells(gap: st.SearchStrategy[float], transport: st.SearchStrategy[float]) ->
     )
 
 
-@RANDOM
-@given(cells(st.floats(0, 5e-3), st.floats(-0.3, 0.3)))
+@examples(100, 1000, cells(st.floats(0, 5e-3), st.floats(-0.3, 0.3)))
 def test_implicit_stage_meets_the_nozzle_law_and_closes_its_books(cell: Cell) -> None:
     walls, area, gap = cell.walls, cell.walls.area, cell.walls.gap
     stage = cell.after()
@@ -202,8 +199,7 @@ def test_implicit_stage_meets_the_nozzle_law_and_closes_its_books(cell: Cell) ->
     assert stage.leak == pytest.approx(expected, abs=2e-4 * scale)
 
 
-@RANDOM
-@given(cells(st.floats(1e-6, 5e-3), st.floats(-5e-3, 5e-3)), st.floats(-6, 0), st.sampled_from((-1, 1)))
+@examples(100, 1000, cells(st.floats(1e-6, 5e-3), st.floats(-5e-3, 5e-3)), st.floats(-6, 0), st.sampled_from((-1, 1)))
 def test_implicit_stage_is_exact_from_any_guess_however_near(cell: Cell, log_off: float, side: int) -> None:
     # one more of Newton's steps, which squares what is left, tells how much the first answer left
     found = cell.after()

@@ -4,7 +4,6 @@ from math import asinh, exp, log, sqrt
 
 import numpy as np
 import pytest
-from hypothesis import given
 from hypothesis import strategies as st
 
 from solvers.arrays import RecordArray, records
@@ -17,6 +16,7 @@ from solvers.contact.ehl.newton import uniform_film
 from solvers.contact.ehl.problem import Problem, groups, problem
 from solvers.contact.ehl.shear import film_arrays
 from solvers.lubricants import Lubricant
+from tests.support.properties import examples
 
 POINT = Contact(2.73e5, 4.015e-3, 1.0, 3.5)
 
@@ -173,7 +173,7 @@ def test_derivatives_of_a_column(rheology: str) -> None:
         assert slope == pytest.approx(expected, rel=1e-4, abs=1e-12)
 
 
-@given(st.integers(1, 40), st.integers(0, 2**31))
+@examples(100, 1000, st.integers(1, 40), st.integers(0, 2**31))
 def test_dense_solution(n: int, seed: int) -> None:
     rng = np.random.default_rng(seed)
     matrix, solution = rng.standard_normal((n, n)) + np.eye(n), rng.standard_normal(n)

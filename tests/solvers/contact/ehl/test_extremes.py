@@ -5,7 +5,6 @@ from math import exp, log, sqrt
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
@@ -21,6 +20,7 @@ from solvers.materials import Solid
 from solvers.published.xue import POINT_A
 from tests.support.changes import changed
 from tests.support.outcomes import assert_finite
+from tests.support.properties import examples
 
 COARSE = Model(nodes=61, film_nodes=11)
 POINT = LineContactInputs(POINT_A, model=COARSE, lubricant=Lubricant())
@@ -114,8 +114,7 @@ contacts = st.builds(
 )
 
 
-@settings(max_examples=150)
-@given(contacts)
+@examples(150, 1500, contacts)
 def test_solved_unsolved_with_residuals_or_refused(inputs: LineContactInputs) -> None:
     outcome(inputs)
 
