@@ -25,6 +25,7 @@ from tests.support import pumping_cases
 from tests.support.changes import changed
 from tests.support.gear_pairs import FZG_A, INCH_PAIR
 from tests.support.outcomes import codes, refused
+from tests.support.properties import first
 from tests.support.stored import stored
 
 WEAK = PumpingSetup(
@@ -217,7 +218,9 @@ def test_where_pressures_are_lost_no_number_is_called_known() -> None:
     assert "not_resolved" in codes(result)
 
 
-@pytest.mark.parametrize("seed", [*range(4), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(4, 40))])
+@pytest.mark.parametrize(
+    "seed", [*first(1, range(4)), *(pytest.param(seed, marks=pytest.mark.slow) for seed in range(4, 40))]
+)
 def test_no_number_depends_on_the_slices(seed: int) -> None:
     pumping_cases.check_resolution(np.random.default_rng(seed))
 
