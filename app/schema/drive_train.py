@@ -36,6 +36,7 @@ from solvers.lubricants import OilInUse
 from solvers.pumping import inputs as pumping
 from solvers.quantity import UNITS
 from solvers.scuffing import inputs as mesh
+from solvers.scuffing.safety_results import BulkInForce
 
 
 class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
@@ -416,8 +417,6 @@ class DriveTrainRequest(MeshInOil):
 class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
     """A gear unit that starts and warms up. The bulk temperature comes from the heat balance."""
 
-    balance_is_default: ClassVar = True
-
     @model_validator(mode="after")
     def with_a_balance(self) -> Self:
         """Refuse a request with an oil but without a heat balance, because a warm-up needs the heat balance."""
@@ -478,8 +477,8 @@ class HeatInForce(Group, of=derived.DerivedHeat):
     """The wall responses that are used for both gears."""
 
 
-class TemperaturesInForce(Group, of=derived.DerivedTemperatures):
-    """The bulk temperature, the scuffing temperature and the lubricant factor that are used."""
+class TemperaturesInForce(Group, of=(derived.DerivedTemperatures, BulkInForce)):
+    """The bulk temperature and how it came about, the scuffing temperature and the lubricant factor."""
 
 
 class GapCurves(Group, of=results.GapCurves):

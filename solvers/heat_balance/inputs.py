@@ -124,6 +124,11 @@ class Measured:
         given = {item.name: getattr(self, item.name) for item in fields(self) if item.name != "drain"}
         return {name: value for name, value in given.items() if value is not None}
 
+    @property
+    def any(self) -> bool:
+        """Whether any temperature was measured."""
+        return bool(self.rotors) or self.drain is not None
+
 
 @record
 class Cooling:
@@ -138,7 +143,8 @@ class Cooling:
         ge=0.1,
         le=5000,
         default_text="by the rise of its temperature",
-        assumed="the flow that all losses of the gears warm by the flow's rise",
+        assumed="the flow that mesh friction and windage, each by its formula, warm by the flow's rise; other heat does "
+        "not order more oil",
     )
     flow_rise: float = quantity(
         "rise by which the flow is sized",
@@ -163,9 +169,7 @@ class Cooling:
         assumed="both gears get as much",
         folded=True,
     )
-    jets: Jets = quantity(
-        "direction of the jets", default="into_mesh", assumed="into the mesh; jets against the outlet brake more"
-    )
+    jets: Jets = quantity("direction of the jets", default="into_mesh", assumed="into the mesh")
     jet_speed: float = quantity(
         "speed of the jets",
         "v_jet",
@@ -289,7 +293,10 @@ class Cooling:
         folded=True,
     )
     band: bool = quantity(
-        "band", default=True, text="also the temperatures of much and of little oil on the flanks", folded=True
+        "band",
+        default=True,
+        text="also the least and greatest temperatures over what is unknown of the cooling",
+        folded=True,
     )
     measured: Measured = quantity("measured temperatures", default_factory=Measured)
     casing: Casing = quantity("casing", default_factory=Casing)
