@@ -397,6 +397,16 @@ class DriveTrainRequest(MeshInOil):
         """Return the model options, with the number of slices that the calculation uses."""
         return super().options() | {"slices": self.model.si(pumping.PumpingModel).slice_count}
 
+    def assumed_by_the_model(self) -> dict[str, str]:
+        """Add to the assumptions of the base class the given inputs that have no effect in a unit."""
+        reasons = super().assumed_by_the_model()
+        if self.cooling.pumping_w:
+            reasons["cooling.pumping_w"] = "not used, because the unit computes its pumping loss"
+        for name in ("pinion_bulk_c", "wheel_bulk_c") if self.is_balanced else ():
+            if getattr(self.thermal, name) is not None:
+                reasons[f"thermal.{name}"] = "not used, because the heat balance computes the temperatures of the teeth"
+        return reasons
+
     def unused(self) -> dict[str, bool]:
         """Mark inputs as unused in addition to the inputs that the base class marks.
 

@@ -469,9 +469,14 @@ class MeshInOil(Request):
         return method_asked(temperatures, cooling, has_oil=bool(self.lubricant.known))
 
     @property
+    def asks_for_balance(self) -> bool:
+        """Whether a heat balance runs if an oil is known."""
+        return self.bulk_method in {None, "heat_balance"}
+
+    @property
     def is_balanced(self) -> bool:
         """Whether a heat balance runs."""
-        return bool(self.lubricant.known) and self.bulk_method in {None, "heat_balance"}
+        return bool(self.lubricant.known) and self.asks_for_balance
 
     @property
     def _lubricant_factor_asked(self) -> bool:
@@ -542,9 +547,9 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
         return self.gears.si(GearPairInputs), self.load.si(si.Load)
 
     @property
-    def is_balanced(self) -> bool:
-        """Whether a heat balance runs: of a pair, only where it can affect the bulk temperature."""
-        return super().is_balanced and (self.bulk_method is not None or self._is_fast())
+    def asks_for_balance(self) -> bool:
+        """Whether a heat balance runs if an oil is known: of a pair, only where it can affect the bulk temperature."""
+        return super().asks_for_balance and (self.bulk_method is not None or self._is_fast())
 
     def _is_fast(self) -> bool:
         """Return whether the heat balance has a share in the bulk temperature at this speed."""

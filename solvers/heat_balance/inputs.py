@@ -143,8 +143,8 @@ class Cooling:
         ge=0.1,
         le=5000,
         default_text="by the rise of its temperature",
-        assumed="the flow that mesh friction and windage, each by its formula, warm by the flow's rise; other heat does "
-        "not order more oil",
+        assumed="the flow that mesh friction and windage, each by its formula, warm by the flow's rise; other heat "
+        "does not order more oil",
     )
     flow_rise: float = quantity(
         "rise by which the flow is sized",

@@ -2,6 +2,8 @@
 
 from typing import Literal
 
+import numpy as np
+
 from solvers.arrays import FloatArray
 from solvers.contact.film import Regime
 from solvers.heat_balance.results import CoolingInForce, Heat
@@ -120,6 +122,12 @@ class BulkInForce:
         OWN,
         text="0 up to 20 m/s, rising to 1 at 60 m/s; null where the method is chosen",
     )
+
+    def bulk_at(self, balance: FloatArray) -> FloatArray:
+        """Bulk temperature of the contact at another bulk temperature of the balance; in the unit of the fields."""
+        if self.bulk_estimate is None or self.balance_share is None:
+            return balance
+        return self.bulk_estimate + self.balance_share * np.maximum(balance - self.bulk_estimate, 0.0)
 
 
 @record

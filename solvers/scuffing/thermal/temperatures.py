@@ -73,7 +73,7 @@ def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
     if flanks is None and rule.takes_balance and inputs.known_oil is not None:
         heat = pair_heat(inputs, distribution, rule.estimate)
         flanks = heat.pinion.flank, heat.wheel.flank
-    if flanks is not None:
+    if flanks is not None and rule.method in {None, "heat_balance"}:
         surfaces = rule.surfaces(flanks)
         bulk = None if surfaces is None else sum(surfaces) / 2
         temperatures = replace(temperatures, bulk=bulk, flanks=surfaces)
