@@ -115,6 +115,14 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
     raise NoSolution("heat_balance", message, {"change_k": change})
 
 
+def sized_flow(inputs: DriveTrainInputs) -> float | None:
+    """Oil flow to the gears that is sized where none is given [m^3/s]; None if one is given, or if no balance runs."""
+    if inputs.mesh.cooling.gear_flow is not None or not asks_for_balance(inputs):
+        return None
+    unbanded = replace(inputs, mesh=replace(inputs.mesh, cooling=replace(inputs.mesh.cooling, band=False)))
+    return warm_unit(unbanded).heat.gear_flow
+
+
 def _first_guess(inputs: DriveTrainInputs) -> DriveTrainInputs:
     """Return the unit for the first pass, in which flanks, bodies and films all have the same temperature."""
     for shaft, name in zip(inputs.shafts, NAMES, strict=True):  # films below are those of two bearings

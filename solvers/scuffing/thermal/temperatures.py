@@ -15,19 +15,20 @@ import numpy as np
 
 from solvers.errors import InvalidInput
 from solvers.gears.pair import PathOfContact
-from solvers.heat_balance import Heat
+from solvers.heat_balance import Heat, network_of
 from solvers.heat_balance.inputs import Cooling
 from solvers.lubricants import Lubricant
 from solvers.notices import Notice, Rank
 from solvers.oils import OilSheet, lubricant_at
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.mesh_results import friction_loss
+from solvers.scuffing.model import solve
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety_results import BulkInForce
 from solvers.scuffing.thermal.blok import blok_flash
 from solvers.scuffing.thermal.bulk import FLOODED_UP_TO, STARVED_FROM, BulkRule, balance_share, method_asked
 from solvers.scuffing.thermal.flank import FlashMap, contact_at_points, map_flash, mean_flash
-from solvers.scuffing.thermal.pair_heat import pair_heat
+from solvers.scuffing.thermal.pair_heat import balance_inputs, pair_heat
 from solvers.scuffing.thermal.practice import (
     TEST_TEMPERATURE,
     bulk_temperature,
@@ -90,6 +91,16 @@ def bulk_rule(inputs: ScuffingInputs, distribution: LoadDistribution, flash: Fla
     estimate = None if oil is None or method == "given" else estimated_bulk(inputs, distribution, flash)
     speed = pitch_line_velocity(inputs.distribution, distribution.path_of_contact)
     return BulkRule(method, estimate, balance_share(speed) if method is None else None)
+
+
+def sized_flow(inputs: ScuffingInputs) -> float | None:
+    """Oil flow to the gears that is sized where none is given [m^3/s]; None if one is given, or if no balance runs."""
+    has_oil = inputs.known_oil is not None
+    method = method_asked(inputs.temperatures, inputs.cooling, has_oil=has_oil)
+    if inputs.cooling.gear_flow is not None or not has_oil or method not in {None, "heat_balance"}:
+        return None
+    rubbing, distribution = with_friction(inputs, solve(inputs.distribution))
+    return network_of(balance_inputs(rubbing, distribution)).spray.flow
 
 
 def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[ScuffingInputs, LoadDistribution]:

@@ -30,7 +30,7 @@ def celsius(network: Network) -> FloatArray:
 
 
 def plain(network: Network) -> Network:
-    """Return the network without air friction at the tooth tips, and with oil that neither jets nor teeth accelerate."""
+    """Return the network without air friction at the tooth tips, and with oil that nothing accelerates."""
     return changed(network, {"recovery": 0.0, "spray.jet": 0.0, "spray.velocity": 0.0})
 
 
