@@ -1,6 +1,6 @@
 """Inputs of the cooling of a gear pair or gear unit."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Literal
 
 from solvers.errors import InvalidInput
@@ -319,6 +319,13 @@ class Cooling:
     def factor(self) -> float:
         """The given fling-off factor, or its default value."""
         return FLING_OFF_FACTOR if self.fling_off_factor is None else self.fling_off_factor
+
+    @property
+    def states_anything(self) -> bool:
+        """Whether any input differs from its default; one that is given and equals the default does not."""
+        used = replace(self, wetting_share=self.wetting, rewetting_share=self.rewetting, fling_off_factor=self.factor)
+        plain = Cooling(wetting_share=WETTING_SHARE, rewetting_share=REWETTING_SHARE, fling_off_factor=FLING_OFF_FACTOR)
+        return replace(used, other=self.other or None) != plain
 
     def check(self) -> None:
         """Refuse inputs that exclude each other.

@@ -16,7 +16,6 @@ import numpy as np
 from solvers.errors import InvalidInput
 from solvers.gears.pair import PathOfContact
 from solvers.heat_balance import Heat, network_of
-from solvers.heat_balance.inputs import Cooling
 from solvers.lubricants import Lubricant
 from solvers.notices import Notice, Rank
 from solvers.oils import OilSheet, lubricant_at
@@ -207,7 +206,7 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact, bulk: BulkInForce) 
         )
         rank: Rank = "doubtful" if speed > STARVED_FROM else "note"
         yield Notice("bulk_lower_bound", message, "temperatures.bulk_method", rank=rank)
-    if bulk.bulk_balance is None and inputs.cooling != Cooling():
+    if bulk.bulk_balance is None and inputs.cooling.states_anything:
         why = f"the bulk temperature is {bulk.bulk_method}"
         if bulk.balance_share == 0.0:
             why = (
