@@ -53,6 +53,7 @@ class Calculation:
 
     The endpoint answers as soon as the kernels of its `stage` are compiled. `figures` are the figures that show the
     answers. `cost` estimates the time of a request. `cost` is None if no permissible request takes too long.
+    `sized_flow` returns the oil flow that the calculation sizes for its inputs [m^3/s], None if it sizes none.
     """
 
     path: str
@@ -65,6 +66,7 @@ class Calculation:
     stage: Stage
     figures: tuple[Declaration, ...] = ()
     cost: Callable[[Any], Cost] | None = None
+    sized_flow: Callable[[Any], float | None] | None = None
 
 
 def _thermal_path(request: Any) -> Cost:
@@ -212,6 +214,7 @@ CALCULATIONS = (
         stage=LINE_CONTACT,
         figures=scuffing_figures.FIGURES,
         cost=_checked_lines,
+        sized_flow=scuffing.sized_flow,
     ),
     Calculation(
         path="/v1/scuffing/line-contact",
@@ -235,6 +238,7 @@ CALCULATIONS = (
         stage=DRIVE_TRAIN,
         figures=drive_train_figures.FIGURES,
         cost=_two_thermal_paths,
+        sized_flow=drive_train.sized_flow,
     ),
     Calculation(
         path="/v1/drive-train/warm-up",

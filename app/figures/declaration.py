@@ -24,8 +24,8 @@ class Declaration:
 
     If `shown_at` is the path of another calculation, the figure appears on the page of that calculation and not on the
     page of its own calculation. `asked_by` is the path of a section or value of the request. A page leaves out the
-    figure if this section or value is absent. If `asked_value` is given, a page also leaves out the figure if the value
-    differs from `asked_value`.
+    figure if this section or value is absent. If `asked_if` is given, the request's property of this name decides
+    instead.
     """
 
     name: str
@@ -35,29 +35,20 @@ class Declaration:
     compute: Callable[[Any, Any], Any] | None = None
     shown_at: str = ""
     asked_by: str = ""
-    asked_value: str = ""
+    asked_if: str = ""
 
     def is_asked(self, request: Request) -> bool:
-        """Return True if the request has the section or value that the figure needs.
-
-        If `asked_value` is given, the value in the request must also be equal to `asked_value`. If `asked_by` is empty,
-        the result is True.
-        """
-        if not self.asked_by:
-            return True
-        value = attrgetter(self.asked_by)(request)
-        return value == self.asked_value if self.asked_value else value is not None
+        """Return True if the request asks for what the figure shows, or if the figure needs no asking."""
+        if self.asked_if:
+            return bool(getattr(request, self.asked_if))
+        return not self.asked_by or attrgetter(self.asked_by)(request) is not None
 
     def figure(self, request: Request, response: Response) -> Figure:
         """Return the figure of a case; raise NoFigure if there is nothing to show."""
         if response.status == "no_solution":
             raise NoFigure("no_solution", "The calculation has no solution, so there is nothing to draw")
         if not self.is_asked(request):
-            wanted = (
-                f"Set {self.asked_by} to {self.asked_value}"
-                if self.asked_value
-                else f"Give the section {self.asked_by}"
-            )
+            wanted = f"Set {self.asked_by} to heat_balance" if self.asked_if else f"Give the section {self.asked_by}"
             raise NoFigure("not_asked", f"{wanted} to have this figure", self.asked_by)
         inputs, result = request.inputs(), shown(response.result)
         computed = () if self.compute is None else (self.compute(inputs, result),)

@@ -49,6 +49,6 @@ class JsonRoute(APIRoute):
                 in_body = [item | {"loc": item["loc"][1:]} for item in error.errors() if item["loc"][0] == "body"]
                 if len(in_body) < len(error.errors()):  # there are errors of the address, which are reported first
                     raise
-                raise InvalidBody(faults(model, in_body)) from None
+                raise InvalidBody(faults(model, in_body, read.content)) from None
 
         return handle

@@ -101,13 +101,13 @@ PLACES = {
         "H18; friction: H7; oil_conductance flooded_conductance turn_film oil_limited: H5; film: H4"
     ),
     "heat_balance.results.Heat": (
-        "H18; drain: H20; gear_flow: H11; total_flow: H12; wetting_share: H4; friction_to_pinion: H7; "
+        "H18; drain drain_deviation: H20; gear_flow: H11; total_flow: H12; wetting_share: H4; friction_to_pinion: H7; "
         "wheel_deviation: H19; backlash_loss: H22"
     ),
     "heat_balance.results.BearingHeat": "H18; film oil_flow: H12; friction_power: D5",
     "heat_balance.results.HeatFlow": "heat-balance#network",
     "heat_balance.results.HeatLosses": (
-        "H6; oil_acceleration: H9; windage: H8; bearings: D5; couplings: D9; pumping other total: heat-balance#losses"
+        "H6; oil_acceleration jets: H9; windage: H8; bearings: D5; couplings: D9; pumping other total: heat-balance#losses"
     ),
     "heat_balance.results.Balance": "H17",
     "heat_balance.results.BulkEstimates": "R8; iso_ts_6336_22_bulk: H13",
@@ -152,6 +152,7 @@ PLACES = {
     ),
     "drive_train.results.ForceBalance": "drive-train#bearings",
     "drive_train.results.Convergence": "D11",
+    "scuffing.safety_results.BulkInForce": "H25; bulk_estimate: R8; bulk_balance: H18",
     "drive_train.derived.DerivedTemperatures": "D15; scuffing lubricant_factor: R9",
     "drive_train.derived.Derived": "Xue 1",
     "drive_train.derived.DerivedShaft": "drive-train#shafts",

@@ -343,7 +343,7 @@ def _own(leaf: Leaf, name: str, state: State) -> FieldView:
 def field_view(leaf: Leaf, name: str, state: State) -> FieldView:
     """Return the view of a field; `name` is the path of the field with the indices of lists."""
     text, value = state.texts.get(name, ""), state.resolved.get(name, leaf.default)
-    options = _options(leaf, text)
+    options = _options(leaf, text, value)
     widget = "text" if leaf.kind in {"text", "other"} else "number"
     rule = "" if value not in (None, []) or leaf.options else leaf.declared.default_text or ""
     return FieldView(
@@ -374,10 +374,11 @@ def _placeholder(leaf: Leaf, value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, float) else text_of(value)
 
 
-def _options(leaf: Leaf, text: str) -> tuple[tuple[str, str], ...]:
+def _options(leaf: Leaf, text: str, used: Any) -> tuple[tuple[str, str], ...]:
     """Return the values and labels of the options of a field; empty if the field has no options.
 
-    The option for the default has an empty value, unless the user typed the default. The text in the field is always an
+    The option for the default has an empty value, unless the user typed the default; if an answer used a value for an
+    option left open, the label of this option says which. The text in the field is always an
     option, even if this text is not permissible.
     """
     named = {str(option): words(str(option)) for option in leaf.options}
@@ -387,7 +388,8 @@ def _options(leaf: Leaf, text: str) -> tuple[tuple[str, str], ...]:
         return ()
     default = "" if leaf.default is None else text_of(leaf.default)
     if default not in named:
-        named = {"": cited(leaf.declared.default_text or "choose …"), **named}
+        open_label = cited(leaf.declared.default_text or "choose …") if used is None else f"by default: {words(used)}"
+        named = {"": open_label, **named}
     if text:
         named.setdefault(text, text)
     return tuple(("" if value == default != text else value, label) for value, label in named.items())

@@ -268,8 +268,10 @@ def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[
     worse = min(ends) if view.greatest_is_best else max(ends)
     level, standing = _standing(worse, limit, greatest_is_best=view.greatest_is_best)
     name = f"{shown(limit, 4)} {leaf.unit or ''}".strip()
-    verdict = f"{judge.title}: {words(said)}" if judge and said is not None else standing.format(name)
-    return level, f"{verdict}, at the worse end of the band" if len(ends) > 1 else verdict
+    verdict = words(said) if judge and said is not None else standing.format(name)
+    if len(ends) > 1:
+        return level, f"{shown(value, DIGITS)}, at worst {shown(worse, DIGITS)}: {verdict}"
+    return level, f"{judge.title}: {verdict}" if judge and said is not None else verdict
 
 
 def _standing(value: float, limit: float, *, greatest_is_best: bool) -> tuple[str, str]:

@@ -46,11 +46,6 @@ class GearCooling(Section, of=si.Cooling):
             "other_w": measured.drain_c is not None,
         }
 
-    @property
-    def is_given(self) -> bool:
-        """Whether any field of the cooling is given."""
-        return bool(self.model_fields_set)
-
 
 class GearHeat(Group, of=results.GearTemperatures):
     """Temperatures of a gear, the frictional heat that enters the gear, and the cooling by the oil film."""

@@ -36,6 +36,7 @@ from solvers.lubricants import OilInUse
 from solvers.pumping import inputs as pumping
 from solvers.quantity import UNITS
 from solvers.scuffing import inputs as mesh
+from solvers.scuffing.safety_results import BulkInForce
 
 
 class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
@@ -396,6 +397,16 @@ class DriveTrainRequest(MeshInOil):
         """Return the model options, with the number of slices that the calculation uses."""
         return super().options() | {"slices": self.model.si(pumping.PumpingModel).slice_count}
 
+    def assumed_by_the_model(self) -> dict[str, str]:
+        """Add to the assumptions of the base class the given inputs that have no effect in a unit."""
+        reasons = super().assumed_by_the_model()
+        if self.cooling.pumping_w:
+            reasons["cooling.pumping_w"] = "not used, because the unit computes its pumping loss"
+        for name in ("pinion_bulk_c", "wheel_bulk_c") if self.is_balanced else ():
+            if getattr(self.thermal, name) is not None:
+                reasons[f"thermal.{name}"] = "not used, because the heat balance computes the temperatures of the teeth"
+        return reasons
+
     def unused(self) -> dict[str, bool]:
         """Mark inputs as unused in addition to the inputs that the base class marks.
 
@@ -415,8 +426,6 @@ class DriveTrainRequest(MeshInOil):
 
 class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
     """A gear unit that starts and warms up. The bulk temperature comes from the heat balance."""
-
-    balance_is_default: ClassVar = True
 
     @model_validator(mode="after")
     def with_a_balance(self) -> Self:
@@ -478,8 +487,8 @@ class HeatInForce(Group, of=derived.DerivedHeat):
     """The wall responses that are used for both gears."""
 
 
-class TemperaturesInForce(Group, of=derived.DerivedTemperatures):
-    """The bulk temperature, the scuffing temperature and the lubricant factor that are used."""
+class TemperaturesInForce(Group, of=(derived.DerivedTemperatures, BulkInForce)):
+    """The bulk temperature and how it came about, the scuffing temperature and the lubricant factor."""
 
 
 class GapCurves(Group, of=results.GapCurves):

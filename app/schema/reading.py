@@ -33,21 +33,35 @@ def validated(model: type[M], content: Any) -> M:
         return model.model_validate(content)
     except ValidationError as error:
         items = error.errors(include_url=False)
-        raise InvalidBody(faults(model, items)) from None  # type: ignore[arg-type]
+        raise InvalidBody(faults(model, items, content)) from None  # type: ignore[arg-type]
 
 
-def faults(model: type[BaseModel], items: Iterable[dict[str, Any]]) -> list[Fault]:
-    """Return the faults that pydantic reported for a body, at most a hundred.
+def faults(model: type[BaseModel], items: Iterable[dict[str, Any]], content: Any = None) -> list[Fault]:
+    """Return the faults that pydantic reported for the body `content`, at most a hundred.
 
     `items` are the errors of pydantic. The locations in these errors start at `model`.
     """
     field_faults = []
     for item in islice(items, MOST_FAULTS):
         place, sections = _located(model, item["loc"])
+        place = _sent(place, content)
         no_number = item["type"] in _NUMBER_TYPES and isinstance(item.get("input"), bool | str)
         code = "number_type" if no_number else str(item["type"])
         field_faults.append(Fault(pointer(place), code, _message(place, sections, item)))
     return field_faults
+
+
+def _sent(place: list[str | int], content: Any) -> list[str | int]:
+    """Return a location without the indices below a number that was sent, which stands for a whole matrix."""
+    here = content
+    for depth, part in enumerate(place):
+        if isinstance(part, int) and isinstance(here, int | float):
+            return place[:depth]
+        try:
+            here = here[part]
+        except (KeyError, IndexError, TypeError):
+            return place
+    return place
 
 
 def _located(model: type[BaseModel], location: tuple[str | int, ...]) -> tuple[list[str | int], Models]:

@@ -16,13 +16,15 @@ from app.schema.quantities import Input, View
 from solvers.contact import ehl
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs
+from solvers.gears.pair import gear_pair
+from solvers.heat_balance import Cooling
 from solvers.heat_balance.notices import KNOWN_WITHIN
 from solvers.lubricants import OilInUse
 from solvers.materials import Solid
 from solvers.scuffing import inputs as si
 from solvers.scuffing import results, safety_results
 from solvers.scuffing.micropitting import results as film_results
-from solvers.scuffing.thermal.pair_heat import is_beyond_the_estimate
+from solvers.scuffing.thermal.bulk import balance_share, method_asked
 
 
 class FlankModifications(Section, of=si.Modifications, without=("lead_curve",)):
@@ -305,8 +307,8 @@ class ContactTemperatures(Section, of=si.Temperatures):
 
     @model_validator(mode="after")
     def one_bulk(self) -> Self:
-        """Refuse `bulk_c` unless `bulk_method` is "given". Refuse a heat balance unless oil jets supply the gears."""
-        if self.bulk_method != "given" and self.bulk_c is not None:
+        """Refuse `bulk_c` beside another method than "given", and a heat balance unless oil jets supply the gears."""
+        if self.bulk_method not in {None, "given"} and self.bulk_c is not None:
             method = (
                 "an estimated bulk temperature"
                 if self.bulk_method == "estimated"
@@ -326,8 +328,8 @@ class ContactTemperatures(Section, of=si.Temperatures):
         return self
 
     def unused(self) -> dict[str, bool]:
-        """Mark `bulk_c` as unused unless `bulk_method` is "given"."""
-        return {"bulk_c": self.bulk_method != "given"}
+        """Mark `bulk_c` as unused if `bulk_method` is another method than "given"."""
+        return {"bulk_c": self.bulk_method not in {None, "given"}}
 
 
 class ScuffingTemperatures(ContactTemperatures):
@@ -420,7 +422,6 @@ class MeshInOil(Request):
     values. If a request gives such a value but does not choose the method, the method is set to "given".
     """
 
-    balance_is_default: ClassVar = False  # whether the heat balance is the default at low speeds, too
     methods: ClassVar[dict[str, tuple[str, ...]]] = {
         "model.friction": ("friction_coefficient",),
         "temperatures.bulk_method": ("temperatures.bulk_c",),
@@ -434,7 +435,7 @@ class MeshInOil(Request):
             section, name = method.split(".")
             held = sent.get(section, {})
             if isinstance(held, dict) and any(_is_given(sent, path) for path in values):
-                sent = sent | {section: {name: "given"} | held}
+                sent = sent | {section: {**held, name: "given" if held.get(name) is None else held[name]}}
         return sent
 
     @model_validator(mode="after")
@@ -446,40 +447,9 @@ class MeshInOil(Request):
             )
         return self
 
-    @model_validator(mode="after")
-    def balance_where_the_estimate_ends(self) -> Self:
-        """Choose the heat balance as method for the bulk temperature if the request does not choose a method.
-
-        This is only done if an oil is given, if jets supply the oil, and if at least one of these conditions is met:
-
-        - The heat balance is the default of this kind of request.
-        - The request gives the cooling.
-        - The pair is too fast for the estimate of the bulk temperature.
-        """
-        temperatures = self.temperatures
-        if "bulk_method" in temperatures.model_fields_set or temperatures.oil_supply != "spray":
-            return self
-        asked = self.balance_is_default or self.cooling.is_given
-        if not self.lubricant.known or not (asked or self._is_fast()):
-            return self
-        balanced = temperatures.model_copy(update={"bulk_method": "heat_balance"})
-        balanced.model_fields_set.discard("bulk_method")  # the method then counts as a default and not as a given value
-        request = self.model_copy(update={"temperatures": balanced})
-        if "temperatures" not in self.model_fields_set:
-            request.model_fields_set.discard("temperatures")
-        return request
-
     @abstractmethod
     def running(self) -> tuple[GearPairInputs, si.Load]:
         """Return the solver's gear pair and load."""
-
-    def _is_fast(self) -> bool:
-        """Return whether the pitch line velocity is too high for the estimate of the bulk temperature."""
-        try:
-            gears, load = self.running()
-            return is_beyond_the_estimate(gears, load.pinion_speed)
-        except InvalidInput:  # the gears are invalid; the solver reports the reason later
-            return False
 
     def scuffing_inputs(self, gears: GearPairInputs, load: si.Load) -> si.ScuffingInputs:
         """Return the solver's inputs for the pair `gears` under `load`."""
@@ -493,9 +463,20 @@ class MeshInOil(Request):
         )
 
     @property
+    def bulk_method(self) -> si.BulkMethod | None:
+        """The method for the bulk temperature; None for the rule between the estimate and the heat balance."""
+        temperatures, cooling = self.temperatures.si(si.Temperatures), self.cooling.si(Cooling)
+        return method_asked(temperatures, cooling, has_oil=bool(self.lubricant.known))
+
+    @property
+    def asks_for_balance(self) -> bool:
+        """Whether a heat balance runs if an oil is known."""
+        return self.bulk_method in {None, "heat_balance"}
+
+    @property
     def is_balanced(self) -> bool:
-        """Whether the bulk temperature comes from a heat balance."""
-        return bool(self.lubricant.known) and self.temperatures.bulk_method == "heat_balance"
+        """Whether a heat balance runs."""
+        return bool(self.lubricant.known) and self.asks_for_balance
 
     @property
     def _lubricant_factor_asked(self) -> bool:
@@ -518,7 +499,7 @@ class MeshInOil(Request):
         of_the_film = (name for name in Micropitting.model_fields if not name.startswith("wear"))
         return dict.fromkeys((f"micropitting.{name}" for name in of_the_film), dry) | {
             "micropitting.quality_grade": dry or not standard,
-            "temperatures.oil_supply": self.temperatures.bulk_method == "given" and not standard,
+            "temperatures.oil_supply": self.bulk_method == "given" and not standard,
             "cooling": not self.is_balanced,
             "lubricant": dry,
             "temperatures": dry,
@@ -565,6 +546,19 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
     def running(self) -> tuple[GearPairInputs, si.Load]:
         return self.gears.si(GearPairInputs), self.load.si(si.Load)
 
+    @property
+    def asks_for_balance(self) -> bool:
+        """Whether a heat balance runs if an oil is known: of a pair, only where it can affect the bulk temperature."""
+        return super().asks_for_balance and (self.bulk_method is not None or self._is_fast())
+
+    def _is_fast(self) -> bool:
+        """Return whether the heat balance has a share in the bulk temperature at this speed."""
+        try:
+            gears, load = self.running()
+            return balance_share(load.pinion_speed * gear_pair(gears).pinion_working_radius) > 0.0
+        except InvalidInput:  # the gears are invalid; the solver reports the reason later
+            return False
+
     def unused(self) -> dict[str, bool]:
         """Mark the inputs that have no effect in this case, including two fields that only gear units use."""
         of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg")
@@ -574,8 +568,8 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
         return self.scuffing_inputs(*self.running())
 
 
-class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, OilInUse)):
-    """The values used for the torque, the power and the lengths, and the properties of the oil.
+class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, OilInUse, safety_results.BulkInForce)):
+    """The values used for torque, power and lengths, how the bulk temperature came about, and the oil's properties.
 
     The properties of the oil hold at the reference temperature of the oil.
     """

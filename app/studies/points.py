@@ -18,7 +18,10 @@ from app.schema.model import Request
 from app.schema.reading import validated
 from app.studies.fields import clear_excluded, scalar_at, set_value, value_at
 from app.studies.requests import DRIVE_TRAIN, Overrides
+from solvers.errors import InvalidInput, NoSolution
+from solvers.heat_balance import Cooling
 from solvers.notices import Rank
+from solvers.quantity import UNITS, quantities
 
 Status = Literal["ok", "ok_with_warnings", "no_solution", "refused", "failed"]
 SOLVED = ("ok", "ok_with_warnings")  # statuses of points that have an answer
@@ -32,6 +35,10 @@ BY_FILM = {
 
 Outputs with `thermal_ehl` in the path also need the thermal film. These outputs are not listed here.
 """
+
+GEAR_FLOW = "cooling.gear_flow_l_per_min"
+FLOW_FIELDS = {GEAR_FLOW, "cooling.flow_rise_k"}
+LEAST_FLOW, MOST_FLOW = (quantities(Cooling)["gear_flow"].bounds[end] for end in ("ge", "le"))
 
 logger = logging.getLogger("tribodrive")
 
@@ -59,6 +66,7 @@ class Question(NamedTuple):
     base: dict[str, Any]
     outputs: Sequence[str]
     deadline_s: float
+    gear_flow: float | None = None  # l/min, sized once for the base request; every point runs with the same oil pump
 
     def failed(self, code: str, message: str) -> Point:
         """Return a point with status `failed`. This status means that the request is not to blame."""
@@ -172,6 +180,35 @@ def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Ov
     return body
 
 
+def sized_flow(question: Question, first: Overrides) -> float | None:
+    """Return the oil flow [l/min] that the calculation sizes for the base request of a study; None if it sizes none.
+
+    If the base request leaves out a field that the study varies, the request of the first point is taken.
+    """
+    calculation = BY_PATH[question.endpoint]
+    if calculation.sized_flow is None:
+        return None
+    for overrides in ({}, first):
+        try:
+            request = validated(calculation.request, with_overrides(calculation, question.base, overrides))
+            flow = calculation.sized_flow(request.inputs())
+        except InvalidBody:
+            continue
+        except (InvalidInput, NoSolution):  # each point says so itself
+            return None
+        return None if flow is None else min(max(flow / UNITS["l_per_min"].scale, LEAST_FLOW), MOST_FLOW)
+    return None
+
+
+def _with_flow(question: Question, calculation: Calculation, overrides: Overrides, request: Request) -> Request:
+    """Return the request with the flow of the study's oil pump, unless the point varies the flow or has no balance."""
+    if question.gear_flow is None or not FLOW_FIELDS.isdisjoint(overrides) or not request.is_balanced:
+        return request
+    return validated(
+        calculation.request, with_overrides(calculation, question.base, {**overrides, GEAR_FLOW: question.gear_flow})
+    )
+
+
 class Chunk(NamedTuple):
     """The answers at the first few of the requested points, and the computing time of these answers [s]."""
 
@@ -193,6 +230,11 @@ def solve_chunk(question: Question, overrides: Sequence[Overrides]) -> Chunk:
     return Chunk(points, time.perf_counter() - started)
 
 
+def _assumed_flow(question: Question) -> dict[str, Any]:
+    reason = "sized once, for the base request: one oil pump for all points"
+    return {"field": GEAR_FLOW, "value": question.gear_flow, "reason": reason}
+
+
 def solve_point(question: Question, overrides: Overrides) -> Point:
     """Solve the request of one point, and return the answer as a `Point`.
 
@@ -203,7 +245,8 @@ def solve_point(question: Question, overrides: Overrides) -> Point:
     try:
         request = validated(calculation.request, with_overrides(calculation, question.base, overrides))
         refuse_endless(calculation, request, question.deadline_s)
-        answer = evaluate(calculation, request)
+        with_flow = _with_flow(question, calculation, overrides, request)
+        answer = evaluate(calculation, with_flow)
     except (InvalidBody, Unprocessable) as error:
         return Point("refused", [None] * len(question.outputs), [], faults_of(error)[0])
     except MemoryError:
@@ -216,6 +259,6 @@ def solve_point(question: Question, overrides: Overrides) -> Point:
         answer.status,
         [value_at(answer, path) for path in question.outputs],
         [warning.code for warning in answer.warnings],
-        assumptions=tuple(dict(assumption) for assumption in answer.assumptions),
+        assumptions=(*map(dict, answer.assumptions), *(() if with_flow is request else (_assumed_flow(question),))),
         ranks=tuple(warning.rank for warning in answer.warnings),
     )

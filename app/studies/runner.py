@@ -27,7 +27,16 @@ from app.schema.model import MODEL_VERSION
 from app.schema.reading import validated
 from app.sources import SOURCES
 from app.studies.fields import is_number
-from app.studies.points import CHUNK_SECONDS, BaseRequest, Chunk, Point, Question, reduced_request, solve_chunk
+from app.studies.points import (
+    CHUNK_SECONDS,
+    BaseRequest,
+    Chunk,
+    Point,
+    Question,
+    reduced_request,
+    sized_flow,
+    solve_chunk,
+)
 from app.studies.requests import Overrides
 from solvers.arrays import FloatArray
 
@@ -199,6 +208,11 @@ class Study(ABC):
     def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
         """Return the requested outputs, or the headline numbers if the request names no outputs."""
         return base.outputs(self.body.outputs)
+
+    async def _size_flow(self, pool: Pool, first: Overrides) -> None:
+        """Size the oil flow once, in a process of the pool; `first` holds the values of the first point."""
+        flow = await twice_if_lost(pool, sized_flow, self.question, first)
+        self.question = self.question._replace(gear_flow=flow)
 
     @abstractmethod
     def _planned(self, base: BaseRequest, most: int) -> int:

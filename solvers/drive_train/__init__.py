@@ -25,6 +25,7 @@ from solvers.drive_train.inputs import (
 )
 from solvers.drive_train.notices import unusual_values
 from solvers.drive_train.results import DriveTrainResult
+from solvers.drive_train.unit_heat import sized_flow
 from solvers.drive_train.warm_up import UnitWarmUp, WarmUpInputs
 from solvers.guards import guarded
 
@@ -47,6 +48,7 @@ __all__ = [
     "UnitCoupling",
     "UnitWarmUp",
     "WarmUpInputs",
+    "sized_flow",
     "solve",
     "solve_warm_up",
 ]

@@ -30,6 +30,13 @@ def check_inputs(inputs: DriveTrainInputs, path: PathOfContact) -> None:
         `bearing_distance`, `face_outside`, `torque_position`, `position_outside`, `section_diameter`,
         `stiffness_matrix`, `thrust_collar_radius`, `machine_side` or `couplings_on_shaft`.
     """
+    if inputs.heat.states_teeth and not inputs.heat.states_both_teeth:
+        missing = "wheel_bulk" if inputs.heat.wheel_bulk is None else "pinion_bulk"
+        message = (
+            "only one tooth temperature is given. Give that of the other gear too; or give the bulk temperature of the "
+            "contact and no tooth temperature; or give none, and the heat balance computes all"
+        )
+        raise InvalidInput("one_tooth_temperature", message, f"heat.{missing}")
     for index, (shaft, name) in enumerate(zip(inputs.shafts, NAMES, strict=True)):
         _check_sections(inputs, path, index, name)
         _check_bearings(inputs, shaft, name)
@@ -59,9 +66,14 @@ def _check_sections(inputs: DriveTrainInputs, path: PathOfContact, index: int, n
         position += section.length
 
 
-def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
+def check_bearing_count(shaft: Shaft, name: str) -> None:
+    """Raise InvalidInput `bearing_count` unless the shaft has two bearings; `name` is the field of the shaft."""
     if len(shaft.bearings) != 2:
         raise InvalidInput("bearing_count", "a shaft needs exactly two bearings", f"{name}.bearings")
+
+
+def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
+    check_bearing_count(shaft, name)
     for k, bearing in enumerate(shaft.bearings):
         if not _is_on(shaft, bearing.position):
             message = f"bearing {k} lies beyond the ends of the shaft"

@@ -8,6 +8,7 @@ from solvers.lubricants import OilInUse, oil_in_use
 from solvers.quantity import quantity, record
 from solvers.scuffing.inputs import TR_13989
 from solvers.scuffing.results import LoadDistribution
+from solvers.scuffing.safety_results import BulkInForce
 
 
 @record
@@ -48,21 +49,24 @@ class DerivedCoupling:
 
 @record
 class DerivedHeat:
-    """The wall response used for each gear; `inputs.Heat` explains the wall response."""
+    """Wall response and tooth temperature used for each gear; `inputs.Heat` explains the wall response."""
 
     wall_response: float = quantity("wall response used", "κ_1")
     wall_response_wheel: float = quantity("wall response of the wheel used", "κ_2")
+    pinion_bulk: float = quantity("tooth temperature of the pinion used", "θ_M1", unit="c")
+    wheel_bulk: float = quantity("tooth temperature of the wheel used", "θ_M2", unit="c")
 
 
 @record
 class DerivedTemperatures:
     """The temperatures and the lubricant factor used for the contact."""
 
+    origin: BulkInForce
     bulk: float | None = quantity(
         "bulk temperature used",
         "θ_M",
         unit="c",
-        text="given, the teeth's mean, estimated, or by heat balance; null without an oil",
+        text="`bulk_method` says how it came about; null without an oil",
     )
     scuffing: float | None = quantity(
         "scuffing temperature used", "θ_S", unit="c", text="given or by a test; null with neither"
@@ -94,7 +98,7 @@ class Derived:
     cooling: CoolingInForce | None = quantity("cooling used", default=None, text="null without a heat balance")
 
 
-def derived(inputs: DriveTrainInputs, mesh: LoadDistribution, heat: Heat | None = None) -> Derived:
+def derived(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: BulkInForce, heat: Heat | None = None) -> Derived:
     """Collect the values that the calculation used for inputs that were left open.
 
     Parameters
@@ -103,6 +107,8 @@ def derived(inputs: DriveTrainInputs, mesh: LoadDistribution, heat: Heat | None 
         The unit.
     mesh : LoadDistribution
         Load distribution of the mesh of the unit.
+    bulk : BulkInForce
+        How the bulk temperature came about.
     heat : Heat, optional
         Heat balance of the unit, if the inputs request a heat balance.
 
@@ -132,9 +138,10 @@ def derived(inputs: DriveTrainInputs, mesh: LoadDistribution, heat: Heat | None 
             )
             for coupling in inputs.couplings
         ),
-        thermal=DerivedHeat(*inputs.heat.responses(ratio)),
+        thermal=DerivedHeat(*inputs.heat.responses(ratio), *inputs.heat.teeth),
         lubricant=None if lubricant is None else OilInUse(**oil_in_use(lubricant)),
         temperatures=DerivedTemperatures(
+            bulk,
             inputs.mesh.temperatures.bulk,
             inputs.mesh.temperatures.scuffing,
             inputs.mesh.temperatures.lubricant_factor,

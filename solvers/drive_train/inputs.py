@@ -23,6 +23,7 @@ CouplingFriction = Literal["elastic_plastic", "sliding"]
 ShaftName = Literal["pinion", "wheel"]
 State = Literal["hot", "cold"]
 ASSUMED_RESPONSE = 0.5  # chosen within the range of published values, 0.2 to 1
+USUAL_TEETH = (90.0 + 273.15, 80.0 + 273.15)  # K, tooth temperatures of pinion and wheel where none is known
 FILM_ABOVE_OIL = 15.0  # K; assumed difference between the temperatures of a bearing film and of the oil
 COINCIDENT = 1e-9  # m; positions that are closer together count as one position
 
@@ -406,26 +407,28 @@ class Heat:
         default_text="the pinion's times z1/z2",
         assumed="a wheel tooth meets the hot gas once a turn of the wheel",
     )
-    pinion_bulk: float = quantity(
+    pinion_bulk: float | None = quantity(
         "tooth temperature of the pinion",
         "θ_M1",
         unit="c",
-        default=90.0,
+        default=None,
         ge=-70,
         le=500,
         tolerance=5,
-        text="without the heat of pumping",
+        text="without the heat of pumping; give those of both gears or of none",
+        default_text="by the heat balance; 90 °C where none runs",
         assumed="usual of high-speed gears; measure it",
     )
-    wheel_bulk: float = quantity(
+    wheel_bulk: float | None = quantity(
         "tooth temperature of the wheel",
         "θ_M2",
         unit="c",
-        default=80.0,
+        default=None,
         ge=-70,
         le=500,
         tolerance=5,
-        text="without the heat of pumping",
+        text="without the heat of pumping; give those of both gears or of none",
+        default_text="by the heat balance; 80 °C where none runs",
         assumed="usual of high-speed gears; measure it",
     )
     reference: float = quantity(
@@ -443,6 +446,23 @@ class Heat:
         default=False,
         text="whether tooth temperatures hold the pumping heat; only its variation along the face is added then",
     )
+
+    @property
+    def states_teeth(self) -> bool:
+        """Whether a tooth temperature is given."""
+        return self.pinion_bulk is not None or self.wheel_bulk is not None
+
+    @property
+    def states_both_teeth(self) -> bool:
+        """Whether the temperatures of both gears are given."""
+        return self.pinion_bulk is not None and self.wheel_bulk is not None
+
+    @property
+    def teeth(self) -> tuple[float, float]:
+        """Tooth temperatures of pinion and wheel, given or assumed [K]."""
+        given = self.pinion_bulk, self.wheel_bulk
+        pinion, wheel = (usual if own is None else own for own, usual in zip(given, USUAL_TEETH, strict=True))
+        return pinion, wheel
 
     def responses(self, speed_ratio: float) -> tuple[float, float]:
         """Return the wall responses of pinion and wheel.

@@ -29,7 +29,9 @@ def train_losses(
     coupling = sum(result.friction_power for result in couplings)
     parts: tuple[float | None, float | None, float | None] = (None, None, None)
     if heat is not None:
-        parts, mesh = (heat.losses.oil_acceleration, heat.losses.windage, heat.losses.other), heat.losses.mesh
+        # Jets that are faster than the teeth would drive them; this is not credited, for the oil pump pays for it.
+        acceleration, mesh = max(heat.losses.oil_acceleration, 0.0), heat.losses.mesh
+        parts = acceleration, heat.losses.windage, heat.losses.other
     if mesh is None:
         return TrainLosses(coupling, pumping, None, bearings, *parts, None, None)
     total = coupling + pumping + mesh + bearings + sum(part for part in parts if part is not None)

@@ -56,14 +56,14 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
         equilibrium = settle(inputs, prepared, start)
     system, mesh, thermal = prepared.unit, prepared.mesh, prepared.thermal
     spread = distribution(inputs.mesh.distribution, mesh.prepared, equilibrium.balance)
-    contact, spread, flash, _ = in_force(contact_of(inputs), spread)
+    contact, spread, flash, _, rule, ran = in_force(contact_of(inputs), spread)
     inputs = replace(inputs, mesh=contact)
     hubs = hubs_of(system, equilibrium)
     couplings = coupling_results(system, equilibrium, hubs)
     shafts = shaft_results(inputs, mesh.prepared.path, system, equilibrium, couplings)
     gas = gas_heat(inputs.pumping, inputs.mesh.distribution.load.pinion_speed)
     flank = flank_heat(inputs, spread, flash, thermal)
-    heat = None if warm is None else with_safety_band(inputs, warm.heat, flank.safety)
+    heat = None if warm is None else with_safety_band(inputs, rule, warm.heat, flank.safety)
     load = face_load(spread)
     losses = train_losses(inputs, spread.friction_loss.power, gas.power, shafts, couplings, heat)
     return DriveTrainResult(
@@ -83,14 +83,14 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
         over_the_flow=None if warm is None else partial(over_the_flow, warm.balance),
         contact_temperature=frozen(flank.temperature),
         film_ratio=None if flank.micropitting.ratio is None else frozen(flank.micropitting.ratio),
-        derived=derived(inputs, spread, heat),
+        derived=derived(inputs, spread, ran, heat),
         warnings=(
             *spread.warnings,
             *coupling_notices(inputs, couplings, warnings_of(system, equilibrium)),
             *shaft_notices(inputs, shafts),
             *load_notices(inputs, load),
             *loss_notices(inputs, losses),
-            *oil_notices(inputs.mesh, spread.path_of_contact),
+            *oil_notices(inputs.mesh, spread.path_of_contact, ran),
             *(() if heat is None else heat.warnings),
             *flank.warnings,
             *gas.warnings,

@@ -56,7 +56,7 @@ def outcome(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Outcom
 def outcome_of(inputs: DriveTrainInputs, prepared: Prepared, equilibrium: Equilibrium) -> Outcome:
     """Return the main results of a unit in equilibrium, without the thermal film."""
     spread = distribution(inputs.mesh.distribution, prepared.mesh.prepared, equilibrium.balance)
-    contact, spread, flash, _ = in_force(contact_of(inputs), spread)
+    contact, spread, flash, *_ = in_force(contact_of(inputs), spread)
     closed = replace(inputs, mesh=replace(contact, lubrication="closed_form"))
     heat = flank_heat(closed, spread, flash, prepared.thermal)
     shares = np.trapezoid(spread.flank.line_load, axis=0)

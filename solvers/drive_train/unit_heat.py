@@ -15,6 +15,7 @@ import numpy as np
 
 from solvers import heat_balance
 from solvers.arrays import FloatArray
+from solvers.drive_train.checks import NAMES, check_bearing_count
 from solvers.drive_train.elements import coupling_results, hubs_of
 from solvers.drive_train.gap.balance import Equilibrium
 from solvers.drive_train.gap.thermal_lead import gas_heat
@@ -28,6 +29,7 @@ from solvers.heat_balance import Heat, HeatBalanceInputs, Journal, rod_conductan
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.model import distribution
 from solvers.scuffing.safety import safety_factor
+from solvers.scuffing.thermal.bulk import BulkRule, method_asked
 from solvers.scuffing.thermal.flank import map_flash
 from solvers.scuffing.thermal.pair_heat import balance_inputs, with_backlash_loss
 from solvers.scuffing.thermal.temperatures import estimated_bulk, with_friction
@@ -56,11 +58,16 @@ class WarmUnit:
 def asks_for_balance(inputs: DriveTrainInputs) -> bool:
     """Return True if the bulk temperature has to come from a heat balance that has not been solved yet.
 
-    A heat balance needs a known oil. Without a known oil, return False.
+    A heat balance needs a known oil. Without a known oil, return False. Where no method is chosen, the balance is
+    solved at every speed, for the bodies of the gears; the bulk temperature of the contact follows the rule in
+    `scuffing.thermal.bulk`.
     """
-    temperatures = inputs.mesh.temperatures
-    unknown = temperatures.bulk_method == "heat_balance" and temperatures.flanks is None
-    return unknown and inputs.mesh.known_oil is not None
+    temperatures, has_oil = inputs.mesh.temperatures, inputs.mesh.known_oil is not None
+    if temperatures.flanks is not None or not has_oil:
+        return False
+    if temperatures.bulk_method is None and inputs.heat.states_teeth:
+        return False
+    return method_asked(temperatures, inputs.mesh.cooling, has_oil=True) in {None, "heat_balance"}
 
 
 def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> WarmUnit:
@@ -108,8 +115,18 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
     raise NoSolution("heat_balance", message, {"change_k": change})
 
 
+def sized_flow(inputs: DriveTrainInputs) -> float | None:
+    """Oil flow to the gears that is sized where none is given [m^3/s]; None if one is given, or if no balance runs."""
+    if inputs.mesh.cooling.gear_flow is not None or not asks_for_balance(inputs):
+        return None
+    unbanded = replace(inputs, mesh=replace(inputs.mesh, cooling=replace(inputs.mesh.cooling, band=False)))
+    return warm_unit(unbanded).heat.gear_flow
+
+
 def _first_guess(inputs: DriveTrainInputs) -> DriveTrainInputs:
     """Return the unit for the first pass, in which flanks, bodies and films all have the same temperature."""
+    for shaft, name in zip(inputs.shafts, NAMES, strict=True):  # films below are those of two bearings
+        check_bearing_count(shaft, name)
     guess = inputs.mesh.temperatures.oil + FIRST_RISE
     return at_temperatures(inputs, (guess, guess), (guess, guess), [guess] * 4, None)
 
@@ -290,20 +307,22 @@ def _temperatures(heat: Heat) -> FloatArray:
     return np.array([*gears, *films, *casing])
 
 
-def with_safety_band(inputs: DriveTrainInputs, heat: Heat, safety: TrainSafety | None) -> Heat:
-    """Return the heat balance with the safety factors at both ends of the uncertainty band of the bulk temperature.
+def with_safety_band(inputs: DriveTrainInputs, rule: BulkRule, heat: Heat, safety: TrainSafety | None) -> Heat:
+    """Return the heat balance with the bands of the bulk temperature of the contact and of the safety factor.
 
     The flash temperature is the same at both ends.
     """
     temperatures = inputs.mesh.temperatures
-    if heat.band is None or safety is None or not safety.minimum or temperatures.scuffing is None:
+    bulks = [bulk for flanks in heat.flank_cases if (bulk := rule.bulk(flanks)) is not None]
+    if heat.band is None or not bulks:
         return heat
-    assert temperatures.bulk is not None
+    heat = replace(heat, band=replace(heat.band, bulk=(min(bulks), max(bulks))))
+    if safety is None or not safety.minimum or temperatures.scuffing is None or temperatures.bulk is None:
+        return heat
     limit, oil = temperatures.scuffing, temperatures.oil
-    hottest = oil + (limit - oil) / safety.minimum
-    contacts = [hottest + sum(flanks) / 2 - temperatures.bulk for flanks in heat.flank_cases]
-    factors = [safety_factor(limit, oil, contact) for contact in contacts]
-    finite = [factor for factor in factors if factor is not None]
-    if len(finite) < len(factors):
+    flash = oil + (limit - oil) / safety.minimum - temperatures.bulk
+    least, greatest = (safety_factor(limit, oil, bulk + flash) for bulk in (max(bulks), min(bulks)))
+    if least is None or greatest is None:
         return heat
-    return replace(heat, band=replace(heat.band, safety=(min(finite), max(finite))))
+    assert heat.band is not None
+    return replace(heat, band=replace(heat.band, safety=(least, greatest)))

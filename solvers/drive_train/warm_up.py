@@ -25,6 +25,7 @@ from solvers.notices import Notice
 from solvers.pumping.space.tooth_space import normal_backlash
 from solvers.quantity import quantity, record
 from solvers.scuffing.model import distribution
+from solvers.scuffing.thermal.bulk import method_asked
 from solvers.scuffing.thermal.pair_heat import STEEL_EXPANSION
 from solvers.scuffing.thermal.temperatures import in_force
 from solvers.sources import ISO_6336, OWN
@@ -84,7 +85,9 @@ class UnitWarmUp:
 
     warm_up: WarmUp = quantity("warm-up")
     least_safety: float | None = quantity(
-        "least safety factor of the warm-up", "S_B,min", text="of the five times; null without a scuffing temperature"
+        "least safety factor of the warm-up",
+        "S_B,min",
+        text="of the five times; null without a scuffing temperature, and where all are as cool as the oil",
     )
     largest_face_load_factor: float | None = quantity(
         "largest face load factor of the warm-up", "K_Hβ,max", ISO_6336, text="of the five times"
@@ -128,7 +131,7 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
     During the warm-up the losses change only with the viscosity of the oil. The losses of the warm unit are the
     reference for this change (Eq. H24).
     """
-    unit = inputs.unit
+    unit = _by_balance(inputs.unit)
     if not asks_for_balance(unit):
         message = (
             "a warm-up needs the heat balance; cool the gears by jets of a known oil, and do not give a bulk "
@@ -150,7 +153,7 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
     safeties = np.array([np.nan if at.safety is None else at.safety for at in outcomes])
     return UnitWarmUp(
         warm_up=course,
-        least_safety=None if np.isnan(safeties).any() else float(safeties.min()),
+        least_safety=_least_safety(outcomes),
         largest_face_load_factor=None if np.isnan(factors).any() else float(factors.max()),
         least_backlash=_least_backlash(unit, warm, course),
         alignment=AlignmentOverTime(
@@ -165,16 +168,34 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
     )
 
 
+def _by_balance(unit: DriveTrainInputs) -> DriveTrainInputs:
+    """Return the unit with the heat balance as method if no other is chosen: the estimate knows no time."""
+    mesh = contact_of(unit)
+    if method_asked(mesh.temperatures, mesh.cooling, has_oil=mesh.known_oil is not None) is None:
+        mesh = replace(mesh, temperatures=replace(mesh.temperatures, bulk_method="heat_balance"))
+    return replace(unit, mesh=mesh)
+
+
 def unusual_values(inputs: WarmUpInputs, _: UnitWarmUp) -> Iterator[Notice]:
     """Warn of an unusual temperature of the oil."""
     yield from oil_temperature(inputs.unit.mesh.temperatures.oil)
 
 
+def _least_safety(outcomes: list[Outcome]) -> float | None:
+    """Return the least safety factor; None if no time has one, or if the flank has no temperature at one of the times.
+
+    At a time at which no place of the flank is hotter than the oil, the safety has no bound; it is not the least.
+    """
+    if any(np.isnan(at.temperature).any() for at in outcomes):
+        return None
+    return min((at.safety for at in outcomes if at.safety is not None), default=None)
+
+
 def _derived(warm: WarmUnit) -> Derived:
     """Return the values that the warm unit uses for the inputs that the user has not given."""
     spread = distribution(warm.inputs.mesh.distribution, warm.prepared.mesh.prepared, warm.equilibrium.balance)
-    contact, spread, *_ = in_force(contact_of(warm.inputs), spread)
-    return derived(replace(warm.inputs, mesh=contact), spread, warm.heat)
+    contact, spread, *_, ran = in_force(contact_of(warm.inputs), spread)
+    return derived(replace(warm.inputs, mesh=contact), spread, ran, warm.heat)
 
 
 def _capacities(unit: DriveTrainInputs, warm: WarmUnit) -> Capacities:

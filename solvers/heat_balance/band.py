@@ -1,113 +1,105 @@
-"""Band of flank temperatures that are possible because the amount of oil on the flanks is uncertain.
+"""Band of flank temperatures that are possible because the cooling is uncertain.
 
-The band states no probability.
+The band states no probability, and it covers the cooling only: not load, alignment, oil or flow.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import product
 
 from solvers.arrays import FloatArray
 from solvers.errors import InvalidInput
-from solvers.heat_balance.calibration import LEAST_WETTING, MOST_WETTING, wetted, with_rotor
+from solvers.heat_balance.calibration import LEAST_WETTING, MOST_WETTING, wetted, with_drain, with_rotor
 from solvers.heat_balance.inputs import Cooling
 from solvers.heat_balance.network import FLANKS, Network
 from solvers.heat_balance.solution import equilibrium
 
 MEASURED_WITHIN = 3.0  # K, chosen: uncertainty of a measured temperature
+WETTING_SHARES, FLING_OFF_FACTORS, REWETTING_SHARES = (0.2, 1.0), (0.7, 1.5), (0.0, 0.5)  # chosen
+WINDAGE_FACTORS = (0.7, 3.0)  # chosen: published formulas give 1 to 3.4 times the windage by Mauz
 
 
 @dataclass(frozen=True, slots=True)
-class Extreme:
-    """Cooling by the oil at one end of the band.
+class Corner:
+    """A network at a corner of what is unknown, and the errors of the measured temperatures there [K].
 
-    If `rewetting_share` is None, the nominal rewetting share is kept. If the temperature of a gear was measured, the
-    temperature of this gear at the end of the band is the measured temperature plus the difference `measured` [K].
+    The shares, the factor and the windage are already in the network; the measured temperatures are not yet met.
     """
 
-    wetting_share: float
-    fling_off_factor: float
-    measured: float
-    rewetting_share: float | None = None
+    network: Network
+    rotor_error: float
+    drain_error: float
 
 
-WELL_COOLED = Extreme(wetting_share=1.0, fling_off_factor=1.5, measured=-MEASURED_WITHIN)
-POORLY_COOLED = Extreme(wetting_share=0.2, fling_off_factor=0.7, measured=MEASURED_WITHIN, rewetting_share=0.5)
+def corners(network: Network, cooling: Cooling) -> list[Corner]:
+    """List the corners of all that is neither stated nor measured; empty if everything is (Eq. H21).
 
-
-def extreme_network(network: Network, cooling: Cooling, extreme: Extreme) -> Network:
-    """Return the network at one end of the band of possible temperatures.
-
-    If the user gives a wetting share, a rewetting share or a fling-off factor, the given value is kept.
-
-    Parameters
-    ----------
-    network : Network
-        The network of the nominal case.
-    cooling : Cooling
-        What the user states about the cooling.
-    extreme : Extreme
-        The end of the band.
-
-    Returns
-    -------
-    Network
-        The network with the wetting share, rewetting share and fling-off factor of this end. The flow and the laws of
-        the losses are unchanged.
-
-    Notes
-    -----
-    Eq. H21. If the temperature of a gear was measured, the difference `extreme.measured` is added to this temperature,
-    and the wetting share is fitted to the sum. If no wetting share gives the required temperature, the largest or the
-    smallest share is used.
+    Wetting share, fling-off factor, rewetting share and windage vary where they are not given, each over a range that
+    contains its nominal value. Jets out of the mesh are also tried into the mesh, because published experience above
+    100 m/s contradicts the model on which direction cools better. A measured temperature varies by 3 K.
     """
-    spray = network.spray
-    if cooling.fling_off_factor is None:
-        spray = replace(spray, fling_off_factor=extreme.fling_off_factor)
-    if cooling.rewetting_share is None and extreme.rewetting_share is not None:
-        spray = replace(spray, rewetting_share=extreme.rewetting_share)
-    varied = replace(network, spray=spray)
-    if cooling.measured.rotors:
-        node, temperature = next(iter(cooling.measured.rotors.items()))
-        return _fitted_again(varied, node, temperature + extreme.measured)
-    return wetted(varied, extreme.wetting_share) if cooling.wetting_share is None else varied
+    measured, spray = cooling.measured, network.spray
+    unknown = {
+        "wetting_share": _around(spray.wetting_share, WETTING_SHARES, cooling.wetting_share, measured.rotors),
+        "fling_off_factor": _around(spray.fling_off_factor, FLING_OFF_FACTORS, cooling.fling_off_factor),
+        "rewetting_share": _around(spray.rewetting_share, REWETTING_SHARES, cooling.rewetting_share),
+        "jet": (spray.jet,) if cooling.jets == "into_mesh" else (spray.jet, -spray.jet),
+    }
+    windages = _around(network.windage, [factor * network.windage for factor in WINDAGE_FACTORS], cooling.windage)
+    rotor_errors = (-MEASURED_WITHIN, MEASURED_WITHIN) if measured.rotors else (0.0,)
+    drain_errors = (0.0,) if measured.drain is None else (-MEASURED_WITHIN, MEASURED_WITHIN)
+    tried = [
+        Corner(
+            replace(network, windage=windage, spray=replace(spray, **dict(zip(unknown, values, strict=True)))), *errors
+        )
+        for windage, *values in product(windages, *unknown.values())
+        for errors in product(rotor_errors, drain_errors)
+    ]
+    return tried if len(tried) > 1 else []
 
 
-def _fitted_again(network: Network, node: str, temperature: float) -> Network:
-    """Return the network with the wetting share at which `node` has the given `temperature` [K].
-
-    If `node` is too warm even at the largest wetting share, the network gets the largest share. If `node` is too cold
-    even at the smallest wetting share, the network gets the smallest share.
-    """
-    place, wanted = network.nodes.index(node), temperature - network.oil.inlet
-    all_oil = wetted(network, MOST_WETTING)
-    if float(equilibrium(all_oil).rises[place]) >= wanted:  # no share cools the node to this temperature
-        return all_oil
-    try:
-        return with_rotor(network, node, temperature)
-    except InvalidInput:
-        return wetted(network, LEAST_WETTING)
+def _around(nominal: float, ends: Sequence[float], stated: float | None, measured: object = None) -> tuple[float, ...]:
+    """Return both ends of a range that contains the nominal value; the nominal value alone if it is not varied."""
+    if stated is not None or measured:
+        return (nominal,)
+    return min(nominal, *ends), max(nominal, *ends)
 
 
 def flank_cases(network: Network, cooling: Cooling, nominal: FloatArray) -> tuple[tuple[float, float], ...]:
-    """Compute the flank temperatures at both ends of the band and in the nominal case.
+    """Compute the flank temperatures of pinion and wheel [K] in the nominal case and at every corner of the band.
 
-    Parameters
-    ----------
-    network : Network
-        The network of the nominal case.
-    cooling : Cooling
-        What the user states about the cooling.
-    nominal : FloatArray
-        Temperature rises of the nodes in the nominal case [K].
-
-    Returns
-    -------
-    tuple of (float, float)
-        Flank temperatures of pinion and wheel [K] in the well cooled, the nominal and the poorly cooled case.
+    `nominal` holds the temperature rises of the nodes in the nominal case [K].
     """
-    ends = [extreme_network(network, cooling, extreme) for extreme in (WELL_COOLED, POORLY_COOLED)]
-    rises = [equilibrium(ends[0], nominal).rises, nominal, equilibrium(ends[1], nominal).rises]
+    rises = [nominal]
+    rises += [equilibrium(_measured_again(corner, cooling), nominal).rises for corner in corners(network, cooling)]
     inlet = network.oil.inlet
     return tuple((inlet + float(one[FLANKS[0]]), inlet + float(one[FLANKS[1]])) for one in rises)
+
+
+def _measured_again(corner: Corner, cooling: Cooling) -> Network:
+    """Return the network of a corner, fitted to the measured temperatures with their errors."""
+    network, measured = corner.network, cooling.measured
+    drain = None if measured.drain is None else measured.drain + corner.drain_error
+    if drain is not None and drain <= network.oil.inlet:
+        drain = None
+    if not measured.rotors:
+        return network if drain is None else with_drain(network, drain)
+    node, temperature = next(iter(measured.rotors.items()))
+    return _fitted_again(network, node, temperature + corner.rotor_error, drain)
+
+
+def _fitted_again(network: Network, node: str, temperature: float, drain: float | None) -> Network:
+    """Return the network with the wetting share at which `node` has the given `temperature` [K].
+
+    If no wetting share gives this temperature, the network gets the share that comes closest.
+    """
+    try:
+        return with_rotor(network, node, temperature, drain)
+    except InvalidInput:
+        place, wanted = network.nodes.index(node), temperature - network.oil.inlet
+        ends = [wetted(network, share) for share in (MOST_WETTING, LEAST_WETTING)]
+        ends = ends if drain is None else [with_drain(end, drain) for end in ends]
+        return min(ends, key=lambda end: abs(float(equilibrium(end).rises[place]) - wanted))
 
 
 def flank_band(
@@ -115,14 +107,12 @@ def flank_band(
 ) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return the lowest and the highest temperature [K] of each gear's flank.
 
-    If a flank temperature was measured and used for the calibration, the band of this flank extends from 3 K
-    below to 3 K above the measured temperature.
+    The band of a measured gear is never narrower than 3 K to both sides.
     """
     bands = []
-    for gear, node in enumerate(("pinion_flank", "wheel_flank")):
+    for gear, name in enumerate(("pinion", "wheel")):
         values = [case[gear] for case in cases]
-        measured = cooling.measured.rotors.get(node)
-        if measured is not None and next(iter(cooling.measured.rotors)) == node:
-            values = [measured - MEASURED_WITHIN, measured + MEASURED_WITHIN]
+        if any(node.startswith(name) for node in cooling.measured.rotors):
+            values += [values[0] - MEASURED_WITHIN, values[0] + MEASURED_WITHIN]
         bands.append((min(values), max(values)))
     return bands[0], bands[1]

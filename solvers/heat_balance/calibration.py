@@ -21,6 +21,7 @@ SHARE_STEP = 1e-5  # step of the logarithm of the wetting share in difference qu
 MOST_FITS, LARGEST_FIT = 20, 1.0  # largest number of Newton steps; largest change of the share's logarithm per step
 FITTED = 1e-6  # K; tolerance of the last step
 MET = 1e-5  # K; tolerance of the measured temperature
+HOT, FAHRENHEIT = 130 + 273.15, ", which may be in degrees Fahrenheit"  # hotter teeth are unusual
 
 
 def wetted(network: Network, share: float) -> Network:
@@ -67,7 +68,8 @@ def with_drain(network: Network, drain: float) -> Network:
     Returns
     -------
     Network
-        The network with fitted other losses. The other losses are negative if the calculated losses are too high.
+        The network with fitted other losses, which are never negative: where the calculated losses alone warm the drain
+        further, the other losses are 0 and the measured temperature is not met.
 
     Raises
     ------
@@ -99,7 +101,7 @@ def with_drain(network: Network, drain: float) -> Network:
         if abs(gap) < 1e-9 or other == before:
             break
         slope = (gap - previous) / (other - before)
-    return replace(network, other=other)
+    return replace(network, other=max(other, 0.0))
 
 
 def with_rotor(network: Network, node: str, temperature: float, drain: float | None = None) -> Network:
@@ -133,6 +135,8 @@ def with_rotor(network: Network, node: str, temperature: float, drain: float | N
     """
     place, wanted = network.nodes.index(node), temperature - network.oil.inlet
     fitted = _fitted(network, place, wanted, None if drain is None else drain - network.oil.inlet)
+    if fitted is not None and fitted.other < 0.0:  # the drain cannot be met; the gear still can
+        return with_rotor(replace(network, other=0.0), node, temperature)
     if fitted is not None:
         return fitted
 
@@ -220,7 +224,7 @@ def _unreachable(node: str, temperature: float, reached: list[float]) -> Invalid
     message = (
         f"no wetting share from 0.02 to 1 brings the {node.replace('_', ' ')} to {temperature - 273.15:.4g} °C; only "
         f"temperatures from {low:.4g} to {high:.4g} °C can be reached. Check the losses, the oil flow and the "
-        "measured temperature"
+        f"measured temperature{FAHRENHEIT if temperature > HOT else ''}"
     )
     if not reached:
         message = "the heat balance has no solution at any wetting share; check the losses and the oil flow"

@@ -1,6 +1,6 @@
 """Inputs of the cooling of a gear pair or gear unit."""
 
-from dataclasses import fields
+from dataclasses import fields, replace
 from typing import Literal
 
 from solvers.errors import InvalidInput
@@ -124,6 +124,11 @@ class Measured:
         given = {item.name: getattr(self, item.name) for item in fields(self) if item.name != "drain"}
         return {name: value for name, value in given.items() if value is not None}
 
+    @property
+    def any(self) -> bool:
+        """Whether any temperature was measured."""
+        return bool(self.rotors) or self.drain is not None
+
 
 @record
 class Cooling:
@@ -138,7 +143,8 @@ class Cooling:
         ge=0.1,
         le=5000,
         default_text="by the rise of its temperature",
-        assumed="the flow that all losses of the gears warm by the flow's rise",
+        assumed="the flow that mesh friction and windage, each by its formula, warm by the flow's rise; other heat "
+        "does not order more oil",
     )
     flow_rise: float = quantity(
         "rise by which the flow is sized",
@@ -163,9 +169,7 @@ class Cooling:
         assumed="both gears get as much",
         folded=True,
     )
-    jets: Jets = quantity(
-        "direction of the jets", default="into_mesh", assumed="into the mesh; jets against the outlet brake more"
-    )
+    jets: Jets = quantity("direction of the jets", default="into_mesh", assumed="into the mesh")
     jet_speed: float = quantity(
         "speed of the jets",
         "v_jet",
@@ -289,7 +293,10 @@ class Cooling:
         folded=True,
     )
     band: bool = quantity(
-        "band", default=True, text="also the temperatures of much and of little oil on the flanks", folded=True
+        "band",
+        default=True,
+        text="also the least and greatest temperatures over what is unknown of the cooling",
+        folded=True,
     )
     measured: Measured = quantity("measured temperatures", default_factory=Measured)
     casing: Casing = quantity("casing", default_factory=Casing)
@@ -312,6 +319,13 @@ class Cooling:
     def factor(self) -> float:
         """The given fling-off factor, or its default value."""
         return FLING_OFF_FACTOR if self.fling_off_factor is None else self.fling_off_factor
+
+    @property
+    def states_anything(self) -> bool:
+        """Whether any input differs from its default; one that is given and equals the default does not."""
+        used = replace(self, wetting_share=self.wetting, rewetting_share=self.rewetting, fling_off_factor=self.factor)
+        plain = Cooling(wetting_share=WETTING_SHARE, rewetting_share=REWETTING_SHARE, fling_off_factor=FLING_OFF_FACTOR)
+        return replace(used, other=self.other or None) != plain
 
     def check(self) -> None:
         """Refuse inputs that exclude each other.

@@ -1,4 +1,4 @@
-"""Losses of a gear pair: friction of the mesh as a function of temperature, windage, and acceleration of the oil.
+"""Losses of a gear pair: friction of the mesh as a function of temperature, windage, and what the oil is given.
 
 The friction of the mesh is computed with the load distribution, not in this module. `MeshHeat.at` adapts the computed
 friction to the viscosity of the oil at another temperature.
@@ -11,7 +11,6 @@ from solvers.heat_balance.oil import CoolingOil
 from solvers.quantity import described, record
 
 VISCOSITY_EXPONENT = -0.05  # exponent of the viscosity in Schlenk's mean coefficient of friction (quoted, not verified)
-LARGEST_ACCELERATION_SHARE = 0.5  # chosen: in `flow_by_rise`, largest share of the rise that the acceleration causes
 
 
 @record
@@ -26,6 +25,15 @@ class MeshHeat:
         "[-].",
         default=VISCOSITY_EXPONENT,
     )
+    by_formula: float | None = described(
+        "Friction power by the formula for losses, which sizes an oil flow that is not given; None: `power` [W].",
+        default=None,
+    )
+
+    @property
+    def sizing(self) -> float:
+        """Friction power that sizes an oil flow [W]."""
+        return self.power if self.by_formula is None else self.by_formula
 
     def at(self, oil: CoolingOil, flanks: float) -> float:
         """Compute the friction power at a given temperature of the flanks.
@@ -124,89 +132,28 @@ def windage(pitch_line_velocity: float, diameter: float, face_width: float, modu
 
 
 def acceleration_power(oil: CoolingOil, flow: float, velocity: float, jet: float) -> float:
-    """Compute the power that accelerates the oil from the jet velocity to the pitch-line velocity.
+    """Power that the teeth give to the oil that hits them, rho Q v (v - v_jet) [W] (Eq. H9).
 
-    Parameters
-    ----------
-    oil : CoolingOil
-        The oil.
-    flow : float
-        Oil that hits the teeth [m^3/s].
-    velocity : float
-        Pitch-line velocity v [m/s].
-    jet : float
-        Velocity of the jet v_jet [m/s], positive into the mesh and negative against the teeth.
-
-    Returns
-    -------
-    float
-        Power [W].
-
-    Notes
-    -----
-    Eq. H9: rho Q v (v - v_jet). Per unit mass of oil, the energy is v (v - v_jet). The part (v - v_jet)^2/2 of this
-    energy becomes heat when the oil hits the teeth. The rest of the energy becomes heat when the casing stops the oil.
+    `flow` [m^3/s] hits the teeth; `jet` [m/s] is positive into the mesh. The power is negative if the jets are faster
+    than the teeth and drive them. Together with the power of the jets, each kilogram of this oil is heated by
+    v (v - v_jet) + v_jet^2/2: by (v - v_jet)^2/2 at the impact, and by v^2/2 where the casing stops the oil.
     """
     return oil.density * flow * velocity * (velocity - jet)
 
 
+def jet_power(oil: CoolingOil, flow: float, jet: float) -> float:
+    """Power of the jets, rho Q v_jet^2/2 [W] (Eq. H9); the oil pump supplies it, not the gears."""
+    return oil.density * flow * jet**2 / 2
+
+
 def impact_rise(oil: CoolingOil, velocity: float, jet: float) -> float:
-    """Compute the temperature rise that the impact on the teeth causes in the oil.
-
-    Parameters
-    ----------
-    oil : CoolingOil
-        The oil.
-    velocity : float
-        Pitch-line velocity v [m/s].
-    jet : float
-        Velocity of the jet v_jet [m/s], positive into the mesh and negative against the teeth.
-
-    Returns
-    -------
-    float
-        Rise of the temperature [K].
-
-    Notes
-    -----
-    Eq. H10: (v - v_jet)^2/(2 c).
-    """
+    """Temperature rise of the oil by its impact on the teeth, (v - v_jet)^2/(2 c) [K] (Eq. H10)."""
     return (velocity - jet) ** 2 / (2 * oil.specific_heat)
 
 
-def flow_by_rise(
-    oil: CoolingOil, losses: float, rise: float, wetting_share: float, velocity: float, jet: float
-) -> float:
-    """Compute the oil flow to the gears for a given rise of the oil temperature.
-
-    Parameters
-    ----------
-    oil : CoolingOil
-        The oil.
-    losses : float
-        Losses of the gears without the acceleration of the oil [W].
-    rise : float
-        Rise of the oil temperature that all losses of the gears cause [K].
-    wetting_share : float
-        Share of the oil that the teeth accelerate [-].
-    velocity : float
-        Pitch-line velocity v [m/s].
-    jet : float
-        Velocity of the jet v_jet [m/s].
-
-    Returns
-    -------
-    float
-        Flow [m^3/s].
-
-    Notes
-    -----
-    Eq. H11: Q = P/(rho c (dT - min(dT/2, w v (v - v_jet)/c))), where P are the losses, dT is the rise and w is the
-    wetting share.
-    """
-    accelerating = wetting_share * velocity * (velocity - jet) / oil.specific_heat
-    warming = rise - min(LARGEST_ACCELERATION_SHARE * rise, accelerating)
-    return losses / (oil.heat_capacity * warming)
+def flow_by_rise(oil: CoolingOil, losses: float, rise: float) -> float:
+    """Oil flow to the gears that `losses` [W] warm by `rise` [K], Q = P/(rho c dT) [m^3/s] (Eq. H11)."""
+    return losses / (oil.heat_capacity * rise)
 
 
 def ts_6336_22_bulk_rise(loss: float, centre_distance: float, face_width: float, supply_factor: float) -> float:

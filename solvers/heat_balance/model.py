@@ -15,7 +15,7 @@ from solvers.heat_balance.fling_off import turning_teeth
 from solvers.heat_balance.inputs import Cooling
 from solvers.heat_balance.losses import MeshHeat, flow_by_rise, ts_6336_22_bulk_rise, windage
 from solvers.heat_balance.network import BODIES, FLANKS, MIST, CasingWalls, CooledGear, Flow, Network, Spray
-from solvers.heat_balance.notices import heat_notices, unusual_flow
+from solvers.heat_balance.notices import heat_notices, measured_notices, unusual_flow, unusual_measurements
 from solvers.heat_balance.oil import CoolingOil
 from solvers.heat_balance.results import (
     Balance,
@@ -104,11 +104,13 @@ def solve(inputs: HeatBalanceInputs) -> Heat:
     cases, unsolved = _cases(network, cooling, state)
     bands = flank_band(cases, cooling) if len(cases) > 1 else None
     flows = network.flows(state.rises)
+    measured, drain = cooling.measured, network.oil.inlet + drain_rise(network, state.rises)
+    deviation = _deviation(network, cooling, state.rises)
     return Heat(
         pinion=_gear(network, 0, state.rises, flows),
         wheel=_gear(network, 1, state.rises, flows),
         mist=network.oil.inlet + float(state.rises[MIST]),
-        drain=network.oil.inlet + drain_rise(network, state.rises),
+        drain=drain,
         casing=network.oil.inlet + float(state.rises[-1]) if network.casing else None,
         gear_flow=network.spray.flow,
         total_flow=network.spray.flow + float(oil_flows(network, state.rises).sum()),
@@ -120,9 +122,14 @@ def solve(inputs: HeatBalanceInputs) -> Heat:
         balance=_balance(network, flows),
         estimates=_estimates(inputs),
         band=HeatBand(*bands) if bands else None,
-        wheel_deviation=_deviation(network, cooling, state.rises),
+        wheel_deviation=deviation,
+        drain_deviation=None if measured.drain is None else drain - measured.drain,
         flank_cases=cases,
-        warnings=(*heat_notices(network, state.rises, cooling), *unsolved),
+        warnings=(
+            *heat_notices(network, state.rises, cooling),
+            *measured_notices(network, cooling, drain, deviation),
+            *unsolved,
+        ),
     )
 
 
@@ -142,22 +149,20 @@ def network_of(inputs: HeatBalanceInputs) -> Network:
     cooling, oil = inputs.cooling, inputs.oil
     pumping = (cooling.pumping / 2, cooling.pumping / 2) if inputs.pumping is None else inputs.pumping
     velocity = inputs.gears[0].speed * inputs.gears[0].reference_radius
-    drag = cooling.windage
-    if drag is None:
-        drag = sum(
-            windage(velocity, 2 * one.reference_radius, one.face_width, one.module, one.speed) for one in inputs.gears
-        )
-    flow, jet = cooling.gear_flow, cooling.jet_velocity()
-    if flow is None:
-        losses = inputs.mesh.power + sum(pumping) + drag
-        flow = flow_by_rise(oil, losses, cooling.flow_rise, cooling.wetting, velocity, jet)
+    by_mauz = sum(
+        windage(velocity, 2 * one.reference_radius, one.face_width, one.module, one.speed) for one in inputs.gears
+    )
+    drag = by_mauz if cooling.windage is None else cooling.windage
+    flow = cooling.gear_flow
+    if flow is None:  # by formulas alone: heat that the user adds must not order more oil, and so cool the teeth
+        flow = flow_by_rise(oil, inputs.mesh.sizing + by_mauz, cooling.flow_rise)
     shares = (cooling.flow_to_pinion, cooling.wetting, cooling.rewetting, cooling.factor)
     walls = cooling.casing
     return Network(
         oil=oil,
         gears=(_cooled(inputs.gears[0], pumping[0]), _cooled(inputs.gears[1], pumping[1])),
         mesh=inputs.mesh,
-        spray=Spray(flow, velocity, jet, *shares),
+        spray=Spray(flow, velocity, cooling.jet_velocity(), *shares),
         windage=drag,
         other=cooling.other or 0.0,
         pumping_to_teeth=cooling.pumping_to_teeth,
@@ -209,23 +214,28 @@ def _cooled(gear: GearGeometry, pumping: float) -> CooledGear:
 def _cases(
     network: Network, cooling: Cooling, state: Equilibrium
 ) -> tuple[tuple[tuple[float, float], ...], tuple[Notice, ...]]:
-    """Return the flank temperatures of both gears in the nominal case and at both ends of the uncertainty band.
+    """Return the flank temperatures of both gears in the nominal case and at the corners of the band.
 
-    If no band is requested or if the band has no solution, return the nominal case only. If the band has no solution,
-    also return a notice.
+    Without a band, return the nominal case only. If a band is requested but there is none, a notice says why.
     """
     inlet = network.oil.inlet
     nominal = ((inlet + float(state.rises[FLANKS[0]]), inlet + float(state.rises[FLANKS[1]])),)
     if not cooling.band:
         return nominal, ()
     try:
-        return flank_cases(network, cooling, state.rises), ()
+        cases = flank_cases(network, cooling, state.rises)
     except NoSolution as failure:
         message = (
-            "no band of temperatures is stated. The calculation with little oil on the flanks has no solution: "
-            f"{failure.message}"
+            f"no band of temperatures is stated. A corner of the uncertain cooling has no solution: {failure.message}"
         )
         return nominal, (Notice("band_unsolved", message, "cooling.wetting_share"),)
+    if len(cases) > 1:
+        return cases, ()
+    message = (
+        "no band of temperatures is stated, because wetting share, fling-off factor, rewetting share and windage are "
+        "all given"
+    )
+    return nominal, (Notice("no_band", message, "cooling.band", rank="note"),)
 
 
 def _gear(network: Network, gear: int, rises: FloatArray, flows: list[Flow]) -> GearTemperatures:
@@ -269,6 +279,7 @@ def _losses(network: Network, flows: list[Flow], couplings: float) -> HeatLosses
         "bearings": powers.get("friction of the bearing", 0.0),
         "couplings": couplings,
         "other": network.other,
+        "jets": powers["oil jets"],
     }
     return HeatLosses(**parts, total=sum(parts.values()))
 
@@ -359,4 +370,5 @@ def cooling_in_force(cooling: Cooling, heat: Heat) -> CoolingInForce:
 
 def unusual_values(inputs: HeatBalanceInputs, heat: Heat) -> Iterator[Notice]:
     """Return warnings about unusual inputs."""
-    return unusual_flow(inputs.cooling.gear_flow, heat, inputs.oil)
+    yield from unusual_flow(inputs.cooling.gear_flow, heat, inputs.oil)
+    yield from unusual_measurements(inputs.cooling)

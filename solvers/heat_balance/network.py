@@ -18,7 +18,7 @@ from solvers.heat_balance.bearings import Journal
 from solvers.heat_balance.conduction import tooth_conductance
 from solvers.heat_balance.convection import RECOVERY, face_convection, recovery_rise, rim_convection
 from solvers.heat_balance.fling_off import FlingOff, TurningTeeth, fling_off
-from solvers.heat_balance.losses import MeshHeat, acceleration_power, impact_rise
+from solvers.heat_balance.losses import MeshHeat, acceleration_power, impact_rise, jet_power
 from solvers.heat_balance.oil import CoolingOil
 
 FLANKS, BODIES, MIST = (0, 2), (1, 3), 4
@@ -200,6 +200,7 @@ class Network:
         flows = [
             Flow(source, MIST, self.windage, "windage"),
             Flow(source, MIST, self.other, "other losses"),
+            Flow(source, MIST, jet_power(self.oil, self.spray.flow, self.spray.jet), "oil jets"),
             Flow(MIST, oil, self.oil.heat_capacity * self.spray.flow * mist, "drain"),
         ]
         for gear in (0, 1):

@@ -1,6 +1,7 @@
 """Warnings about the validity of a heat balance."""
 
 from collections.abc import Iterator
+from dataclasses import fields
 from math import sqrt
 
 from solvers.arrays import FloatArray
@@ -8,11 +9,15 @@ from solvers.heat_balance.inputs import Cooling
 from solvers.heat_balance.network import MIST, Network
 from solvers.heat_balance.oil import CoolingOil
 from solvers.heat_balance.results import Heat
+from solvers.lubricants import hotter_than_gears
 from solvers.notices import Notice, unusual_value
 
 SLOW = 40.0  # m/s; at lower speeds the flanks are also wetted by oil that does not come from the jets
 TURBULENT = 41.0  # this number times sqrt(R/c) is the Reynolds number at which Taylor vortices begin in a plain bearing
 KNOWN_WITHIN = 15.0  # K, chosen: uncertainty of flank temperatures without a measured gear temperature
+MEETS = 0.01  # K; tolerance of a measured drain temperature
+CONTRADICTION = 6.0  # K, twice the uncertainty of a measured temperature
+LEAST_USUAL_WETTING = 0.1  # chosen
 USUAL_RISE = (2.0, 60.0)  # K, chosen: usual temperature rise of the oil by the losses of the gears
 
 
@@ -26,19 +31,46 @@ def heat_notices(network: Network, rises: FloatArray, cooling: Cooling) -> Itera
         )
         yield Notice("low_speed", message, "cooling")
     yield from _oil_notices(network, rises)
-    if network.other < 0.0:
-        message = (
-            f"the measured drain temperature would require the other losses to be negative ({network.other:.4g} W); "
-            "either the calculated losses are too high or the stated oil flow is too low"
-        )
-        yield Notice("losses_overestimated", message, "cooling.measured.drain")
     if not cooling.measured.rotors:
         message = (
             "above 50 m/s the heat balance has not been compared with measurements. Flank temperatures are uncertain "
-            f"by about ±{KNOWN_WITHIN:g} K. Differences between gears, oils or oil flows are less uncertain. A "
-            "measured gear temperature reduces the uncertainty"
+            f"by about ±{KNOWN_WITHIN:g} K. Differences between gears, oils or oil flows are less uncertain, those "
+            "between directions of the jets are not. A measured gear temperature reduces the uncertainty"
         )
         yield Notice("not_validated", message, "cooling.measured", rank="note")
+
+
+def measured_notices(
+    network: Network, cooling: Cooling, drain: float, wheel_deviation: float | None
+) -> Iterator[Notice]:
+    """Yield warnings about measured temperatures that the heat balance contradicts, with the size of the contradiction.
+
+    `drain` [K] is the calculated temperature of the drained oil, and `wheel_deviation` [K] the calculated less the
+    measured temperature of the second measured gear.
+    """
+    measured = cooling.measured
+    if measured.drain is not None and drain - measured.drain > MEETS:
+        message = (
+            f"measured drain contradicted by {drain - measured.drain:.3g} K: the calculated losses alone warm the "
+            f"drained oil to {drain - 273.15:.4g} °C, and no loss is negative. The oil flow is larger than stated, or "
+            "the losses are smaller"
+        )
+        yield Notice("losses_overestimated", message, "cooling.measured.drain")
+    if wheel_deviation is not None and abs(wheel_deviation) > CONTRADICTION:
+        node = list(measured.rotors)[1]
+        message = (
+            f"measured gears contradict each other by {abs(wheel_deviation):.3g} K: with the pinion as measured, the "
+            f"{node.replace('_', ' ')} is calculated {'hotter' if wheel_deviation > 0.0 else 'cooler'} than measured. "
+            "Check both measurements and the oil's share for the pinion"
+        )
+        yield Notice("measured_contradiction", message, f"cooling.measured.{node}")
+    if measured.rotors and network.spray.wetting_share < LEAST_USUAL_WETTING:
+        node = next(iter(measured.rotors))
+        message = (
+            f"measured temperature needs a wetting share of only {network.spray.wetting_share:.2g}, outside 0.1 to 1: "
+            "so little oil on the flanks is unlikely. Check the measurement, the oil flow and the losses"
+        )
+        yield Notice("measured_contradiction", message, f"cooling.measured.{node}")
 
 
 def _oil_notices(network: Network, rises: FloatArray) -> Iterator[Notice]:
@@ -73,3 +105,11 @@ def unusual_flow(gear_flow: float | None, heat: Heat, oil: CoolingOil) -> Iterat
     elif rise > most:
         message = f"the losses warm the oil of the gears by {rise:.4g} K; is the oil flow really in l/min?"
         yield unusual_value("cooling.gear_flow", message)
+
+
+def unusual_measurements(cooling: Cooling) -> Iterator[Notice]:
+    """Warn if a measured temperature is unusual; it may be in degrees Fahrenheit."""
+    for item in fields(cooling.measured):
+        temperature = getattr(cooling.measured, item.name)
+        if temperature is not None:
+            yield from hotter_than_gears(temperature, f"cooling.measured.{item.name}")

@@ -53,11 +53,20 @@ class HeatLosses:
 
     mesh: float = quantity("mesh loss", "P_mesh", unit="w", text="at the temperature of the flanks")
     pumping: float = quantity("pumping loss", "P_pump", unit="w")
-    oil_acceleration: float = quantity("acceleration of the oil", "P_acc", OWN, unit="w")
+    oil_acceleration: float = quantity(
+        "acceleration of the oil",
+        "P_acc",
+        OWN,
+        unit="w",
+        text="what the teeth give to the oil that hits them; negative if the jets are faster and drive them",
+    )
     windage: float = quantity("windage", "P_wind", unit="w")
     bearings: float = quantity("bearing losses", "P_B", unit="w")
     couplings: float = quantity("coupling losses", "P_C", unit="w", text="outside of the balance")
     other: float = quantity("other losses", "P_other", unit="w")
+    jets: float = quantity(
+        "power of the oil jets", "P_jet", OWN, unit="w", text="supplied by the oil pump; no loss of the gears"
+    )
     total: float = quantity("total heat of the losses", "P_V", unit="w")
 
 
@@ -80,11 +89,20 @@ class BulkEstimates:
 
 @record
 class HeatBand:
-    """Ranges of flank temperatures and safety factor that follow from the uncertain amount of oil on the flanks."""
+    """Ranges of temperatures and safety factor that follow from the uncertain cooling alone."""
 
     pinion_flank: Range = quantity("band of the pinion's flank", "θ_F1", unit="c", index="low, high")
     wheel_flank: Range = quantity("band of the wheel's flank", "θ_F2", unit="c", index="low, high")
-    safety: Range | None = quantity("band of the safety", "S_B", default=None, index="low, high")
+    bulk: Range | None = quantity(
+        "band of the bulk temperature", "θ_M", unit="c", default=None, index="low, high", text="of the contact"
+    )
+    safety: Range | None = quantity(
+        "band of the safety",
+        "S_B",
+        default=None,
+        index="low, high",
+        text="covers the cooling only, not load, alignment or oil",
+    )
 
 
 @record
@@ -117,9 +135,18 @@ class Heat:
     losses: HeatLosses = quantity("losses in the balance")
     balance: Balance = quantity("balance of heat")
     estimates: BulkEstimates = quantity("estimates of the bulk")
-    band: HeatBand | None = quantity("band of the balance")
+    band: HeatBand | None = quantity(
+        "band of the balance", text="what the uncertain cooling leaves open; null if all of it is given"
+    )
     wheel_deviation: float | None = quantity(
         "deviation of the wheel", "Δθ_2", unit="k", text="calculated less measured, where both gears are measured"
+    )
+    drain_deviation: float | None = quantity(
+        "deviation of the drain",
+        "Δθ_D",
+        unit="k",
+        default=None,
+        text="calculated less measured; above 0 where the calculated losses alone warm the drain further",
     )
     backlash_loss: float | None = quantity(
         "loss of backlash by heat",
@@ -130,8 +157,7 @@ class Heat:
         text="gears against the casing; null without its temperature",
     )
     flank_cases: tuple[tuple[float, float], ...] = described(
-        "Temperatures of both flanks at the well cooled end of the band, in the nominal case and at the poorly cooled "
-        "end [K].",
+        "Temperatures of both flanks in the nominal case and at the corners of the band [K].",
         default=(),
     )
     warnings: tuple[Notice, ...] = ()

@@ -29,6 +29,7 @@ from solvers.scuffing.inputs import (
 from solvers.scuffing.notices import unusual_load_values, unusual_scuffing_values
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety_results import Scuffing
+from solvers.scuffing.thermal.temperatures import sized_flow
 
 solve_load_distribution = guarded(model.solve, unusual_load_values)
 solve_scuffing = guarded(safety.solve_scuffing, unusual_scuffing_values)
@@ -51,6 +52,7 @@ __all__ = [
     "ScuffingTest",
     "Temperatures",
     "iso_vg",
+    "sized_flow",
     "solve_load_distribution",
     "solve_scuffing",
 ]

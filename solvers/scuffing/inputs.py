@@ -57,10 +57,24 @@ class Load:
     )
     pinion_speed: float = quantity("pinion speed", "n_1", XUE, unit="rpm", ge=0.1, le=2e5)
     application_factor: float = quantity(
-        "application factor", "K_A", ISO_6336, default=1.0, ge=0.1, le=10, text="multiplies the load of the contacts"
+        "application factor",
+        "K_A",
+        ISO_6336,
+        default=1.0,
+        ge=0.1,
+        le=10,
+        text="multiplies the load of the contacts",
+        assumed="1, driver and machine add no shocks to the load",
     )
     dynamic_factor: float = quantity(
-        "dynamic factor", "K_v", ISO_6336, default=1.0, ge=0.1, le=10, text="multiplies the load of the contacts"
+        "dynamic factor",
+        "K_v",
+        ISO_6336,
+        default=1.0,
+        ge=0.1,
+        le=10,
+        text="multiplies the load of the contacts",
+        assumed="1, the mesh vibrates without adding to the load",
     )
     mesh_load_factor: float = quantity(
         "mesh load factor", "K_γ", ISO_6336, default=1.0, ge=0.1, le=10, text="multiplies the load of the contacts"
@@ -174,6 +188,7 @@ class Modifications:
         le=1000,
         tolerance=8,
         text="helix slope and misalignment; positive opens the gap towards the end that leaves the mesh last",
+        assumed="0, flanks ground and mounted in line; a real pair carries more load at one end of the face",
     )
     in_plane_deviation: float = quantity(
         "in-plane shaft deviation",
@@ -207,6 +222,7 @@ class Modifications:
         le=1000,
         tolerance=3,
         text="relief at E: pinion tip plus wheel root",
+        assumed="0, no relief: the load is full where a pair of teeth leaves the mesh",
     )
     tip_relief_length: float | None = quantity(
         "tip relief length",
@@ -229,6 +245,7 @@ class Modifications:
         le=1000,
         tolerance=3,
         text="relief at A: pinion root plus wheel tip",
+        assumed="0, no relief: the load is full where a pair of teeth enters the mesh",
     )
     root_relief_length: float | None = quantity(
         "root relief length",
@@ -419,7 +436,8 @@ class Temperatures:
     If `bulk_method` is "given", the bulk temperature `bulk` is an input. If it is "estimated", the bulk temperature
     follows from the oil temperature, the oil supply and Blok's flash temperature; `bulk` is None before this estimate.
     If it is "heat_balance", the heat balance computes the temperatures `flanks` of both flanks [K], and `bulk` is their
-    mean. The oil enters the contact at the bulk temperature.
+    mean. If it is None, `thermal.bulk` chooses, and leads from the estimate to the balance without a step. The oil
+    enters the contact at the bulk temperature.
 
     The scuffing temperature is a property of oil and material. The user gives either the scuffing temperature or the
     result of a scuffing test. If neither is given, there is no safety factor.
@@ -437,16 +455,16 @@ class Temperatures:
         text="bulk temperature of the teeth, at which the oil enters",
         default_text="estimated",
     )
-    bulk_method: BulkMethod = quantity(
+    bulk_method: BulkMethod | None = quantity(
         "bulk temperature method",
         None,
         TR_13989,
-        default="estimated",
-        text="given, estimated from oil, its supply and flash, or by the heat balance of losses and oil; if none is "
-        "given the balance above 60 m/s with jets of a known oil and wherever something is said of the cooling, else "
-        "the estimate",
-        assumed="if no bulk temperature is given: the heat balance above 60 m/s or with a cooling, for there the "
-        "estimate is a lower bound; else the estimate, from the oil, its supply and the mean flash temperature",
+        default=None,
+        text="given; estimated from oil, its supply and flash; or by the heat balance of losses and oil",
+        default_text="given where a bulk temperature is; else, with jets of a known oil, the estimate up to 20 m/s and "
+        "from there steadily to the heat balance at 60 m/s, never below the estimate; else the estimate",
+        assumed="the estimate holds for flooded flanks and the heat balance for jets alone; from 20 to 60 m/s the bulk "
+        "temperature goes from one to the other, and it is never below the estimate",
     )
     oil_supply: OilSupply = quantity(
         "lubrication system factor",

@@ -24,6 +24,7 @@ from solvers.scuffing.micropitting.wear import wear_asked_for
 from solvers.scuffing.model import solve
 from solvers.scuffing.results import ContactPoints, Derived, LoadDistribution
 from solvers.scuffing.safety_results import (
+    BulkInForce,
     ContactTemperature,
     Film,
     Flash,
@@ -34,6 +35,7 @@ from solvers.scuffing.safety_results import (
     ThermalPath,
 )
 from solvers.scuffing.thermal.blok import blok_flash
+from solvers.scuffing.thermal.bulk import BulkRule
 from solvers.scuffing.thermal.flank import (
     SURVEY_POINTS,
     ContactFunction,
@@ -42,6 +44,7 @@ from solvers.scuffing.thermal.flank import (
     find_thinnest,
     formula_film,
 )
+from solvers.scuffing.thermal.misalignment import misalignment_left_out
 from solvers.scuffing.thermal.practice import scuffing_risk
 from solvers.scuffing.thermal.temperatures import in_force, oil_notices
 from solvers.scuffing.thermal.thermal_path import thermal_paths
@@ -93,7 +96,8 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
             "bulk temperature out"
         )
         raise InvalidInput("exclusive", message, "temperatures.bulk_method")
-    inputs, distribution, flash_map, heat = in_force(inputs, solve(inputs.distribution))
+    asked = inputs
+    inputs, distribution, flash_map, heat, rule, ran = in_force(inputs, solve(inputs.distribution))
     given, bulk = inputs.distribution, inputs.temperatures.bulk
     whole = inputs.line == "flank"
     hottest = find_hottest(given, distribution, flash_map) if whole else None
@@ -102,7 +106,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     lines, beside = _lines(inputs, distribution, hottest, film_at)
     if thinnest is not None and beside is not None:
         thinnest = _or_along(distribution, beside, thinnest)
-    warnings, unknown = (*distribution.warnings, *oil_notices(inputs, distribution.path_of_contact)), 0
+    warnings, unknown = (*distribution.warnings, *oil_notices(inputs, distribution.path_of_contact, ran)), 0
     paths = [_closed_form_path(inputs, line) for line in lines]
     if inputs.lubrication == "thermal_ehl" and bulk is not None:
         thermal, notices = thermal_paths(inputs, [line.points for line in lines])
@@ -124,7 +128,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     contact = None if bulk is None else _contact_temperature(inputs.temperatures, bulk, flash, checked)
     safety = None if contact is None else _safety(inputs.temperatures, contact, flash)
     if heat is not None:
-        heat, safety = _with_band(inputs.temperatures, heat, flash, safety)
+        heat, safety = _with_band(inputs.temperatures, rule, heat, flash, safety)
     return Scuffing(
         distribution=distribution,
         flash=flash,
@@ -138,8 +142,9 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         heat=heat,
         flank_flash=frozen(flash_map.flash[flash_map.mapped]),
         flank_film_ratio=None if micropitting.ratio is None else frozen(micropitting.ratio),
-        derived=_derived(inputs, distribution.derived, heat),
+        derived=_derived(inputs, distribution.derived, heat, ran),
         warnings=warnings
+        + misalignment_left_out(asked, distribution, safety)
         + (() if heat is None else heat.warnings)
         + micropitting.warnings
         + path_notices(distribution, paths, contact, safety, unknown),
@@ -248,21 +253,26 @@ def _contact_temperature(
 
 
 def _with_band(
-    temperatures: Temperatures, heat: Heat, flash: Flash, safety: Safety | None
+    temperatures: Temperatures, rule: BulkRule, heat: Heat, flash: Flash, safety: Safety | None
 ) -> tuple[Heat, Safety | None]:
-    """Add the range of the safety factor to `heat.band`. Base the verdict on the lower end of this range."""
-    if safety is None or safety.blok_factor is None or flash.blok_max is None or heat.band is None:
+    """Add the ranges of bulk temperature and safety factor to `heat.band`; base the verdict on the lower end."""
+    bulks = [bulk for flanks in heat.flank_cases if (bulk := rule.bulk(flanks)) is not None]
+    if heat.band is None or not bulks:
         return heat, safety
-    contacts = [sum(flanks) / 2 + flash.blok_max for flanks in heat.flank_cases]
-    factors = [safety_factor(safety.scuffing, temperatures.oil, contact) for contact in contacts]
-    defined = [factor for factor in factors if factor is not None]
-    if len(defined) < len(factors):
-        return heat, safety
-    band = replace(heat.band, safety=(min(defined), max(defined)))
-    return replace(heat, band=band), replace(safety, verdict=scuffing_risk(min(defined)))
+    band = replace(heat.band, bulk=(min(bulks), max(bulks)))
+    if safety is None or safety.blok_factor is None or flash.blok_max is None:
+        return replace(heat, band=band), safety
+    least, greatest = (
+        safety_factor(safety.scuffing, temperatures.oil, bulk + flash.blok_max) for bulk in (max(bulks), min(bulks))
+    )
+    if least is None:
+        return replace(heat, band=band), safety
+    if greatest is not None:  # else the contact may be as cool as the oil, and the range has no upper end
+        band = replace(band, safety=(least, greatest))
+    return replace(heat, band=band), replace(safety, verdict=scuffing_risk(least))
 
 
-def _derived(inputs: ScuffingInputs, mesh: Derived, heat: Heat | None) -> ScuffingDerived:
+def _derived(inputs: ScuffingInputs, mesh: Derived, heat: Heat | None, ran: BulkInForce) -> ScuffingDerived:
     """Return the values of mesh, oil and cooling that follow from the inputs."""
     sheet = inputs.oil if isinstance(inputs.oil, OilSheet) else None
     return ScuffingDerived(
@@ -271,6 +281,7 @@ def _derived(inputs: ScuffingInputs, mesh: Derived, heat: Heat | None) -> Scuffi
         kinematic_viscosity_100=None if sheet is None else sheet.kinematic_viscosity_100,
         density_15=None if sheet is None else sheet.reference_density,
         lubricant_factor=inputs.temperatures.lubricant_factor,
+        bulk=ran,
         cooling=None if heat is None else cooling_in_force(inputs.cooling, heat),
     )
 

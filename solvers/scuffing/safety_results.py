@@ -2,6 +2,8 @@
 
 from typing import Literal
 
+import numpy as np
+
 from solvers.arrays import FloatArray
 from solvers.contact.film import Regime
 from solvers.heat_balance.results import CoolingInForce, Heat
@@ -12,8 +14,9 @@ from solvers.scuffing.inputs import ISO_TR_15144, TR_13989
 from solvers.scuffing.micropitting.results import Micropitting, Wear
 from solvers.scuffing.results import Derived, Flank, LoadDistribution
 from solvers.scuffing.thermal.practice import ScuffingRisk
-from solvers.sources import XUE
+from solvers.sources import OWN, XUE
 
+BulkRan = Literal["given", "estimated", "between", "heat_balance"]
 PointStatus = Literal["ok", "ok_with_warnings", "no_solution", "refused", "unloaded"]
 
 
@@ -92,6 +95,42 @@ class Flash:
 
 
 @record
+class BulkInForce:
+    """How the bulk temperature came about: the method that ran, the temperatures it had, and the balance's share."""
+
+    bulk_method: BulkRan = quantity(
+        "method of the bulk temperature that ran",
+        text="given, estimated, by heat balance, or between the estimate and the balance",
+    )
+    bulk_estimate: float | None = quantity(
+        "estimated bulk temperature",
+        "θ_M,est",
+        TR_13989,
+        unit="c",
+        text="null where it is given, without an oil, or where the flash temperature has no mean",
+    )
+    bulk_balance: float | None = quantity(
+        "bulk temperature by the heat balance",
+        "θ_M,bal",
+        OWN,
+        unit="c",
+        text="mean of both flanks; null where no balance ran",
+    )
+    balance_share: float | None = quantity(
+        "share of the heat balance",
+        "s",
+        OWN,
+        text="0 up to 20 m/s, rising to 1 at 60 m/s; null where the method is chosen",
+    )
+
+    def bulk_at(self, balance: FloatArray) -> FloatArray:
+        """Bulk temperature of the contact at another bulk temperature of the balance; in the unit of the fields."""
+        if self.bulk_estimate is None or self.balance_share is None:
+            return balance
+        return self.bulk_estimate + self.balance_share * np.maximum(balance - self.bulk_estimate, 0.0)
+
+
+@record
 class ContactTemperature:
     """Bulk temperature t_M and largest contact temperature t_B = t_M + t_f [K] (Eq. 16).
 
@@ -104,7 +143,7 @@ class ContactTemperature:
         "θ_M",
         f"{XUE}, Eq. 16",
         unit="c",
-        text="given, estimated, or the mean of both flanks by the heat balance",
+        text="mean of both flanks; `derived.bulk_method` says how it came about",
     )
     blok_max: float | None = quantity(
         "contact temperature by Blok",
@@ -232,6 +271,7 @@ class ScuffingDerived:
     lubricant_factor: float | None = quantity(
         "lubricant factor of the scuffing test used", "X_L", TR_13989, text="null without a scuffing test"
     )
+    bulk: BulkInForce
     cooling: CoolingInForce | None = quantity("cooling used", default=None, text="null without a heat balance")
 
 
@@ -382,7 +422,7 @@ class Scuffing:
     heat: Heat | None = quantity(
         "heat balance",
         default=None,
-        text="null unless the bulk temperature is asked for by heat balance, of a known oil",
+        text="null where the bulk temperature needs none: given, estimated, up to 20 m/s, or without an oil",
     )
     flank_flash: FloatArray = described(
         "Flash temperature by Blok over the flank [profile, face]; NaN if it is unbounded, or if the coefficient of "

@@ -15,7 +15,7 @@ from app.figures.units import shown
 from app.pages.results import cards
 from app.schema.fields import leaves
 from app.schema.scuffing import ScuffingRequest
-from tests.support.requests import CONTACT, COUPLING, GONE, refused, solved
+from tests.support.requests import CONTACT, COUPLING, GONE, changed, refused, solved
 
 COUPLED, SCUFFING, TRAIN = "/v1/coupling", "/v1/scuffing", "/v1/drive-train"
 METHODS = "give bulk_c, or set bulk_method to estimated or heat_balance"
@@ -81,7 +81,8 @@ def test_a_line_contact_needs_an_oil() -> None:
 
 def test_a_bulk_temperature_says_by_itself_that_it_is_given() -> None:
     estimated = solved(SCUFFING, STAGE, {})
-    assert estimated["inputs"]["temperatures"]["bulk_method"] == "estimated"
+    assert estimated["inputs"]["temperatures"]["bulk_method"] is None
+    assert estimated["derived"]["bulk_method"] == "estimated"
     assert estimated["inputs"]["temperatures"]["bulk_c"] is None
     assert {"temperatures.bulk_method", "temperatures.oil_supply"} <= set(reasons(estimated))
     given = solved(SCUFFING, STAGE, {"temperatures.bulk_c": 86.85})
@@ -151,8 +152,10 @@ def test_a_hotter_oil_is_never_safer() -> None:
 @pytest.mark.parametrize(
     ("name", "warned"), [("starter-high-speed-scuffing", True), ("starter-industrial-scuffing", False)]
 )
-def test_beyond_60_metres_per_second_the_estimated_bulk_is_a_lower_bound(name: str, warned: bool) -> None:
-    request = {**examples()[name].request, "model": {"lubrication": "closed_form"}}
+def test_the_estimated_bulk_of_a_fast_pair_is_a_lower_bound(name: str, warned: bool) -> None:
+    request = changed(
+        examples()[name].request, {"model.lubrication": "closed_form", "temperatures.bulk_method": "estimated"}
+    )
     assert ("bulk_lower_bound" in codes(solved(SCUFFING, request, {}))) == warned
     given = {"temperatures.bulk_method": "given", "temperatures.bulk_c": 80}
     assert "bulk_lower_bound" not in codes(solved(SCUFFING, request, given))
@@ -162,7 +165,8 @@ def test_beyond_60_metres_per_second_the_estimated_bulk_is_a_lower_bound(name: s
 def test_a_safety_from_a_lower_bound_of_the_bulk_is_never_called_good(name: str) -> None:
     example = examples()[name]
     calculation = BY_PATH[example.endpoint]
-    answer = evaluate(calculation, calculation.request.model_validate(example.request))
+    body = changed(example.request, {"temperatures.bulk_method": "estimated"})
+    answer = evaluate(calculation, calculation.request.model_validate(body))
     assert any(warning.code == "bulk_lower_bound" for warning in answer.warnings)
     assert all(card.level != "good" for card in cards(answer, answer.inputs))
 
@@ -239,10 +243,10 @@ def test_a_unit_takes_friction_from_its_oil_and_the_bulk_from_its_teeth() -> Non
 
 def test_a_unit_that_says_nothing_of_its_teeth_estimates_the_bulk() -> None:
     request = {**TURBO, "thermal": {"wall_response": 0.6}}
-    assert solved(TRAIN, request, {})["inputs"]["temperatures"]["bulk_method"] == "heat_balance"
+    assert solved(TRAIN, request, {})["derived"]["temperatures"]["bulk_method"] == "heat_balance"
     request |= {"temperatures": {**TURBO["temperatures"], "oil_supply": "dip"}}
     cool, warm = (solved(TRAIN, request, {"temperatures.oil_c": oil}) for oil in (50, 60))
-    assert cool["inputs"]["temperatures"]["bulk_method"] == "estimated"
+    assert cool["derived"]["temperatures"]["bulk_method"] == "estimated"
     assert "bulk_lower_bound" in codes(cool)
     assert warm["safety"]["blok_flank"] < cool["safety"]["blok_flank"]
 

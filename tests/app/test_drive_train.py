@@ -12,6 +12,7 @@ import pytest
 from tests.support.properties import first
 from tests.support.requests import GONE, Post, accepted, assumptions, example, refusals, value_at, warned
 
+HEAT = "starter-turbo-gear-heat"
 PATH = "/v1/drive-train"
 TURBO, COLD, GENERATOR = (
     "starter-turbo-gear-drive-train",
@@ -249,15 +250,51 @@ def test_a_journal_without_viscosity_runs_in_the_gears_oil(post: Post) -> None:
     assert not [field for field in assumed if field.startswith("wheel_shaft.")]
 
 
+@pytest.mark.parametrize("left_out", ["thermal.pinion_bulk_c", "thermal.wheel_bulk_c"])
+def test_one_tooth_temperature_of_two_is_refused(left_out: str, post: Post) -> None:
+    refusal = post(PATH, request({left_out: GONE}, GENERATOR))
+    assert refusals(refusal) == [("one_tooth_temperature", left_out)]
+    told = refusal.json()["errors"][0]["message"]
+    assert all(way in told for way in ("other gear", "bulk temperature of the contact", "heat balance"))
+
+
+def test_what_a_unit_does_not_use_is_named(post: Post) -> None:
+    teeth = {"temperatures.bulk_method": "heat_balance", "thermal.pinion_bulk_c": 95, "thermal.wheel_bulk_c": 80}
+    found = answered(post, teeth | {"cooling.pumping_w": 5000}, HEAT)
+    reasons = {each["field"]: each["reason"] for each in found["assumptions"]}
+    for field in ("cooling.pumping_w", "thermal.pinion_bulk_c", "thermal.wheel_bulk_c"):
+        assert reasons[field].startswith("not used")
+
+
+@pytest.mark.parametrize("name", [GENERATOR, HEAT])
+@pytest.mark.parametrize("count", [1, 3, 4])
+def test_a_shaft_has_two_bearings_with_heat_too(name: str, count: int, post: Post) -> None:
+    body = request({}, name)
+    bearings = body["wheel_shaft"]["bearings"]
+    body["wheel_shaft"]["bearings"] = (bearings * 2)[:count]
+    assert refusals(post(PATH, body)) == [("bearing_count", "wheel_shaft.bearings")]
+
+
+def test_a_stiffness_out_of_range_is_named_as_it_was_sent(post: Post) -> None:
+    for stiffness, place in ((-1.0, ""), ([[-1.0, 0.0], [0.0, 100.0]], ".0.0")):
+        bearing = {"kind": "linear", "position_mm": 0, "stiffness_n_per_um": stiffness}
+        answer = post(PATH, request({"pinion_shaft.bearings.0": bearing}, GENERATOR))
+        assert [path.partition("stiffness_n_per_um")[2] for _, path in refusals(answer)] == [place]
+
+
 def test_what_is_assumed_is_told_by_its_path(post: Post) -> None:
-    thermal = {"thermal.pinion_bulk_c": 80, "thermal.wall_response": GONE, "thermal.wheel_bulk_c": GONE}
+    thermal = {
+        "thermal.pinion_bulk_c": GONE,
+        "thermal.wall_response": GONE,
+        "thermal.wheel_bulk_c": GONE,
+        "temperatures.bulk_method": "given",
+    }
     found = answered(post, thermal, GENERATOR)
     assumed = assumptions(found)
     assert assumed["thermal.wall_response"] == 0.5
     assert assumed["thermal.wall_response_wheel"] == pytest.approx(0.5 / 3)
-    assert assumed["thermal.wheel_bulk_c"] == 80
-    assert "thermal.pinion_bulk_c" not in assumed
-    assert assumed["temperatures.bulk_c"] == pytest.approx(80)
+    assert (assumed["thermal.pinion_bulk_c"], assumed["thermal.wheel_bulk_c"]) == (90, 80)
+    assert assumed["temperatures.bulk_c"] == pytest.approx(85)
     assert assumed["couplings.0.coupling.face_width_mm"] == pytest.approx(24)
     assert assumed["couplings.0.axial_tooth_stiffness_n_per_um"] == pytest.approx(280)
     assert assumed["couplings.0.thrust_fraction"] == 0

@@ -105,7 +105,7 @@ def reason_to_leave_out(name: str, which: str) -> str | None:
     request, _ = solved(name)
     if which in MICROPITTING and request.micropitting is None:
         return "not_asked"
-    if which in BALANCE and request.temperatures.bulk_method != "heat_balance":
+    if which in BALANCE and not request.asks_for_balance:
         return "not_asked"
     if which == "friction" and request.model.lubrication == "closed_form":
         return "closed_form"

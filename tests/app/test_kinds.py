@@ -141,9 +141,9 @@ def test_the_bulk_has_the_share_of_its_lubrication() -> None:
         assert (bulk[supply] - 60.0) / (bulk["dip"] - 60.0) == pytest.approx(factor, rel=1e-9)
 
 
-@pytest.mark.parametrize(("velocity", "warned"), [(59.0, False), (61.0, True), (120.0, True)])
+@pytest.mark.parametrize(("velocity", "warned"), [(19.0, False), (21.0, True), (120.0, True)])
 def test_an_estimate_beyond_its_speed_says_so(velocity: float, warned: bool) -> None:
-    """The answer warns if the pitch-line velocity exceeds 60 m/s. The pinion's pitch radius is 50.78 mm."""
+    """The answer warns if the pitch-line velocity exceeds 20 m/s. The pinion's pitch radius is 50.78 mm."""
     speed = velocity / 50.776e-3 * 9.5493
     load = {"pinion_torque_n_m": 477.5, "pinion_speed_rpm": speed}
     found = solved(SCUFFING, STAGE, {"load": load, "temperatures.bulk_method": "estimated"})

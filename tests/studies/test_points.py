@@ -12,7 +12,7 @@ from app.examples import examples
 from app.schema.fields import leaves
 from app.studies import points
 from app.studies.fields import value_at
-from app.studies.points import Question, solve_chunk, with_overrides
+from app.studies.points import Question, sized_flow, solve_chunk, solve_point, with_overrides
 from tests.support.properties import one_per_endpoint
 
 VARIED = {
@@ -59,6 +59,39 @@ def test_points_are_the_endpoints_own_answers(name: str) -> None:
         assert point.status == single["status"]
         assert point.warnings == [warning["code"] for warning in single["warnings"]]
         assert list(point.assumptions) == single["assumptions"]
+
+
+PAIR = {
+    **examples()["starter-high-speed-scuffing"].request,
+    "model": {"lubrication": "closed_form"},
+    "load": {"power_kw": 12000, "pinion_speed_rpm": 10000},
+}
+POWER, FLOW = "load.power_kw", "cooling.gear_flow_l_per_min"
+
+
+def test_all_points_have_the_oil_pump_of_the_base_request() -> None:
+    outputs = ["safety.blok_factor", "derived.cooling.gear_flow_l_per_min"]
+    question = Question("/v1/scuffing", PAIR, outputs, 30.0)
+    flow = sized_flow(question, {})
+    assert flow is not None
+    question = question._replace(gear_flow=flow)
+    base, twice = (solve_point(question, {POWER: power}) for power in (12000, 24000))
+    assert base.out == [pytest.approx(base.out[0]), pytest.approx(flow)]
+    assert twice.out[1] == pytest.approx(flow)
+    own = solve_point(question._replace(gear_flow=None), {POWER: 24000, FLOW: flow})
+    assert twice.out == own.out, "bit for bit its own answer with this flow"
+    assert solve_point(question._replace(gear_flow=None), {POWER: 24000}).out[0] > twice.out[0]
+    (assumed,) = [each for each in twice.assumptions if each["field"] == FLOW]
+    assert assumed["value"] == flow
+    assert solve_point(question, {POWER: 24000, "cooling.flow_rise_k": 10}).out[1] > flow
+    assert solve_point(question, {FLOW: 100}).out[1] == pytest.approx(100)
+    assert sized_flow(question._replace(base={**PAIR, "cooling": {"gear_flow_l_per_min": 80}}), {}) is None
+
+
+def test_the_pump_is_that_of_the_first_point_where_the_request_leaves_the_field_out() -> None:
+    open_ = {**PAIR, "load": {"pinion_speed_rpm": 10000}}
+    question = Question("/v1/scuffing", open_, ["safety.blok_factor"], 30.0)
+    assert sized_flow(question, {POWER: 12000}) == sized_flow(question._replace(base=PAIR), {})
 
 
 def one(overrides: dict[str, Any], *, base: dict[str, Any] = LOADS.request, deadline_s: float = 30.0) -> points.Point:

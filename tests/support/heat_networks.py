@@ -33,7 +33,7 @@ def turbine_oil(kelvin: float) -> float:
 
 
 OIL = CoolingOil(50.0 + CELSIUS, turbine_oil, 850.0, 2000.0, 0.14)
-FLOW = flow_by_rise(OIL, MESH.power + sum(PUMPING) + WINDAGE, 20.0, 0.5, VELOCITY, 20.0)
+FLOW = 140.08e-3 / 60  # m^3/s, given in the worked example
 
 
 def gear(
@@ -133,7 +133,7 @@ def random_network(random: np.random.Generator, *, unit: bool) -> Network:
     ]
     drag = sum(windage(velocity, 2 * one.flanks.radius, width, module, one.flanks.speed) for one in gears)
     jet, wetting = random.choice([-1.0, 1.0]) * random.uniform(5.0, 40.0), random.uniform(0.1, 1.0)
-    flow = flow_by_rise(oil, mesh.power + sum(pumping) + drag, random.uniform(5.0, 40.0), wetting, velocity, jet)
+    flow = flow_by_rise(oil, mesh.power + drag, random.uniform(5.0, 40.0))
     spray = Spray(
         flow,
         velocity,

@@ -343,12 +343,12 @@ def oil_flow(inputs: DriveTrainInputs, result: DriveTrainResult, curve: FlowCurv
     scuffing, oil, used = None, oil_temperature(inputs), result.derived.temperatures
     if result.safety is not None and result.safety.minimum and used.scuffing is not None and used.bulk is not None:
         scuffing = (used.scuffing, oil + (used.scuffing - oil) / result.safety.minimum - used.bulk)
-    return heat_balance.over_the_oil_flow(heat_balance.heat_of(result.heat), curve, oil, scuffing)
+    return heat_balance.over_the_oil_flow(heat_balance.heat_of(result.heat), curve, oil, scuffing, used.origin)
 
 
 LOAD_ALONE = Declaration("face-load", "Load along the face", OWN, partial(face_load, others={}))
 GAP = Declaration("gap", "Gap over the face by parts", OWN, gap)
-METHOD, BALANCE = "temperatures.bulk_method", "heat_balance"
+METHOD, BALANCE = "temperatures.bulk_method", "asks_for_balance"
 FIGURES = (
     Declaration("shafts", "Shafts, bearings and couplings", "as described", shafts),
     section(lambda inputs: inputs.mesh.distribution.gears),
@@ -372,10 +372,8 @@ FIGURES = (
     Declaration("journals", "Journals in the clearances of the plain bearings", "Ocvirk 1953", journals),
     Declaration("thrust", "Axial load of the shafts", "API 613, 5th ed.", thrust),
     Declaration("losses", "Losses of the unit", OWN, losses),
-    Declaration("heat-flows", "Where the heat goes", OWN, where_heat_goes, asked_by=METHOD, asked_value=BALANCE),
-    Declaration(
-        "node-temperatures", "Temperatures of the unit", OWN, temperatures, asked_by=METHOD, asked_value=BALANCE
-    ),
+    Declaration("heat-flows", "Where the heat goes", OWN, where_heat_goes, asked_by=METHOD, asked_if=BALANCE),
+    Declaration("node-temperatures", "Temperatures of the unit", OWN, temperatures, asked_by=METHOD, asked_if=BALANCE),
     Declaration(
         "oil-flow",
         "What the oil flow does",
@@ -383,6 +381,6 @@ FIGURES = (
         oil_flow,
         compute=curve_over_the_flow,
         asked_by=METHOD,
-        asked_value=BALANCE,
+        asked_if=BALANCE,
     ),
 )

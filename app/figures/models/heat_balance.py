@@ -12,7 +12,7 @@ from solvers.quantity import UNITS
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.model import solve
 from solvers.scuffing.safety import safety_factor
-from solvers.scuffing.safety_results import Safety, Scuffing
+from solvers.scuffing.safety_results import BulkInForce, Safety, Scuffing
 from solvers.scuffing.thermal.pair_heat import balance_inputs
 from solvers.scuffing.thermal.practice import HIGH_RISK_BELOW, LOW_RISK_ABOVE
 from solvers.scuffing.thermal.temperatures import with_friction
@@ -21,7 +21,6 @@ KILOWATT, KELVIN = UNITS["kw"].scale, UNITS["c"].offset
 ROOM = 0.3  # share of the range of temperatures; room at both ends of the axis
 SMALL = 2e-3  # share of the heat supplied; smaller flows are left out
 FLOWS = np.geomspace(0.25, 4.0, 33)  # oil flows divided by the oil flow of the case
-CASES = ("cool end of the band", "nominal", "hot end of the band")
 SUPPLY = {
     "friction of the mesh": "friction of the mesh",
     "friction of the bearing": "friction of the bearings",
@@ -29,6 +28,7 @@ SUPPLY = {
     "oil brought to speed": "oil brought to speed",
     "pumped gas": "pumped gas",
     "other losses": "other losses",
+    "oil jets": "oil jets",
 }
 AWAY = {"drain": "oil of the gears", "oil of the bearing": "oil of the bearings", "surroundings": "casing, to the air"}
 BY_GEAR = {
@@ -123,7 +123,7 @@ def temperatures(heat: Heat, oil: float) -> Figure:
     finding = f"flanks {number(heat.pinion.flank, '°C')} and {number(heat.wheel.flank, '°C')}"
     if band is not None:
         low, high = band.pinion_flank
-        finding = f"{finding}; pinion {number(low)} to {number(high, '°C')} by the oil that reaches it"
+        finding = f"{finding}; pinion {number(low)} to {number(high, '°C')} by the uncertain cooling"
     shown = [level.value for level in levels] + [end for row in rows for end in (row.value, *(row.bounds or ()))]
     room = ROOM * (max(shown) - min(shown) + 1.0)
     x = Axis("temperature", "°C", symbol="θ", magnitude=False, limits=(min(shown) - room, max(shown) + 2 * room))
@@ -171,21 +171,23 @@ def oil_flow(inputs: ScuffingInputs, result: Scuffing, curve: FlowCurve) -> Figu
     """
     heat, safety, largest = heat_of(result.heat), result.safety, result.flash.blok_max
     scuffing = None if safety is None or largest is None else (safety.scuffing, largest)
-    return over_the_oil_flow(heat, curve, inputs.temperatures.oil - KELVIN, scuffing)
+    return over_the_oil_flow(heat, curve, inputs.temperatures.oil - KELVIN, scuffing, result.derived.bulk)
 
 
-def over_the_oil_flow(heat: Heat, curve: FlowCurve, oil: float, scuffing: tuple[float, float] | None) -> Figure:
+def over_the_oil_flow(
+    heat: Heat, curve: FlowCurve, oil: float, scuffing: tuple[float, float] | None, origin: BulkInForce
+) -> Figure:
     """Draw the temperatures of flanks and drained oil, and the safety factor, over the oil flow.
 
     Marks show the flows at which the verdict on the safety factor changes. `scuffing` holds two values that do not
     depend on the flow: the scuffing temperature [°C], and the rise of the contact temperature above the bulk
     temperature [K]. If `scuffing` is None, the safety factor is not drawn. `oil` is the temperature of the supplied oil
-    [°C].
+    [°C], and `origin` says how the bulk temperature follows from the flanks.
     """
     panels = what_the_flow_does(heat, curve)
     if scuffing is not None:
         limit, rise = scuffing
-        bulk = (curve.pinion_flank + curve.wheel_flank) / 2 - KELVIN
+        bulk = origin.bulk_at((curve.pinion_flank + curve.wheel_flank) / 2 - KELVIN)
         factors = _factors(limit, oil, bulk + rise)
         line = Line("safety", curve.flow / UNITS["l_per_min"].scale, factors, named=False)
         marks = [mark for verdict in (HIGH_RISK_BELOW, LOW_RISK_ABOVE) for mark in _first_crossing(line, verdict)]
@@ -245,19 +247,23 @@ def safety_over_the_band(inputs: ScuffingInputs, result: Scuffing) -> Figure:
             "Without a load and a scuffing temperature no safety can be computed",
             "temperatures",
         )
-    if heat.band is None or heat.band.safety is None:
+    if heat.band is None or heat.band.safety is None or heat.band.bulk is None or result.contact_temperature is None:
         raise NoFigure(
             "no_band",
             "The heat balance states no range of safety factors, so there is nothing to draw",
             "cooling.band",
         )
     oil = inputs.temperatures.oil - KELVIN
-    cases = [(first + second) / 2 - KELVIN for first, second in heat.flank_cases]
+    bulks = {
+        "cool end of the band": heat.band.bulk[0],
+        "nominal": result.contact_temperature.bulk,
+        "hot end of the band": heat.band.bulk[1],
+    }
     estimate = heat.estimates.iso_tr_13989_bulk
-    ends = sorted([*cases, *([] if estimate is None else [estimate])])
+    points = bulks | ({} if estimate is None else {"ISO/TR 13989-1": estimate})
+    ends = sorted(points.values())
     bulk = np.linspace(ends[0] - 2.0, ends[-1] + 2.0, 101)
     line = Line("safety", bulk, _factors(safety.scuffing, oil, bulk + largest), named=False)
-    points = dict(zip(CASES, cases, strict=True)) | ({} if estimate is None else {"ISO/TR 13989-1": estimate})
     marks = []
     for name, at in points.items():
         factor = safety_factor(safety.scuffing, oil, at + largest)

@@ -352,7 +352,7 @@ def node_temperatures(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 OWN = ("section", "flank-pressure")  # figures of the load distribution that the page of scuffing shows
-METHOD, BALANCE, DERIVED = "temperatures.bulk_method", "heat_balance", "own derivation, heat balance"
+METHOD, BALANCE, DERIVED = "temperatures.bulk_method", "asks_for_balance", "own derivation, heat balance"
 FIGURES = (
     Declaration(
         "contact-temperature", "Contact temperature along the path of contact", "Xue 2020, Fig. 22", contact_temperature
@@ -365,7 +365,7 @@ FIGURES = (
         DERIVED,
         heat_balance.safety_over_the_band,
         asked_by=METHOD,
-        asked_value=BALANCE,
+        asked_if=BALANCE,
     ),
     Declaration(
         "heat-flows",
@@ -373,7 +373,7 @@ FIGURES = (
         DERIVED,
         _balanced(heat_balance.where_heat_goes),
         asked_by=METHOD,
-        asked_value=BALANCE,
+        asked_if=BALANCE,
     ),
     Declaration(
         "node-temperatures",
@@ -381,7 +381,7 @@ FIGURES = (
         DERIVED,
         node_temperatures,
         asked_by=METHOD,
-        asked_value=BALANCE,
+        asked_if=BALANCE,
     ),
     Declaration(
         "oil-flow",
@@ -390,7 +390,7 @@ FIGURES = (
         heat_balance.oil_flow,
         compute=heat_balance.curve_over_the_flow,
         asked_by=METHOD,
-        asked_value=BALANCE,
+        asked_if=BALANCE,
     ),
     Declaration("film", "Film along the path of contact", "Xue 2020, Fig. 23", film),
     Declaration(

@@ -155,9 +155,9 @@ class Design(Study):
         trials: list[Line] = []
         objectives: list[list[float] | None] = []
         place: list[float] | None = self.start
+        await self._size_flow(pool, {**self._at(self._values(self.start)), **self.cases[0]})
         while place is not None:
-            shares = zip(self.body.variables, place, strict=True)
-            values = [variable.min + share * (variable.max - variable.min) for variable, share in shares]
+            values = self._values(place)
             trial, signed = await self._trial(pool, clock, values)
             yield [{"type": "trial", "index": len(trials), **trial}]
             trials.append(trial)
@@ -190,6 +190,16 @@ class Design(Study):
             }
         ]
 
+    def _values(self, place: list[float]) -> list[float]:
+        """Return the values of the variables at a place, which holds a share of every range."""
+        shares = zip(self.body.variables, place, strict=True)
+        return [variable.min + share * (variable.max - variable.min) for variable, share in shares]
+
+    def _at(self, values: list[float]) -> Overrides:
+        """Return the fields that take the values of the variables."""
+        pairs = zip(self.body.variables, values, strict=True)
+        return {path: value for variable, value in pairs for path in variable.paths}
+
     async def _trial(self, pool: Pool, clock: Clock, values: list[float]) -> tuple[Line, list[float] | None]:
         """Evaluate a correction in all cases. Return a summary of the trial and the objectives of all cases.
 
@@ -200,8 +210,7 @@ class Design(Study):
         If a case has no solution, the remaining cases are not evaluated. The summary then states this case as the
         worst case, with None as its objective. None is also returned instead of the objectives.
         """
-        pairs = zip(self.body.variables, values, strict=True)
-        at: Overrides = {path: value for variable, value in pairs for path in variable.paths}
+        at = self._at(values)
         objectives: list[float] = []
         indices = range(len(self.cases))
         runs = runner.in_order(pool, self.question, lambda index: {**at, **self.cases[index]}, indices, clock)

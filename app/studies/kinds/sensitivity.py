@@ -190,6 +190,7 @@ class Sensitivity(Study):
         overrides: list[Overrides] = [{}]  # the first point is the case itself
         overrides += [{moved.leaf.path: place} for moved in self.perturbations for place in moved.places]
         points: list[Point] = []
+        await self._size_flow(pool, {})
         async for _, chunk in runner.in_order(pool, self.question, overrides.__getitem__, range(self.total), clock):
             points += chunk
         yield [line for column in range(len(self.outputs)) for line in self._ranked(column, points)]

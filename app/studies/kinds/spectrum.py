@@ -278,6 +278,7 @@ class Spectrum(Study):
                 total=self.total,
             )
         ]
+        await self._size_flow(pool, self.overrides(0))
         tally, due = runner.Tally(self.question.outputs), PROGRESS_S
         async for indices, points in runner.in_order(pool, self.question, self.overrides, range(self.total), clock):
             lines: list[Line] = []

@@ -208,6 +208,7 @@ class Sweep(Study):
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
         """Yield the header, a line for each point, and then the lines that `_closing` returns."""
         points, first, outputs = self.points, self.body.from_index, self.question.outputs
+        await self._size_flow(pool, points.overrides(0))
         yield [
             self.header(
                 axes=[axis.header() for axis in points.axes],

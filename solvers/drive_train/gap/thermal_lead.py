@@ -120,8 +120,7 @@ def thermal_lead(inputs: DriveTrainInputs, path: PathOfContact, stations: FloatA
             rises[i] = responses[i] * np.interp(stations, position, rise)
             if heat.bulk_includes_pumping:
                 rises[i] -= face_mean(rises[i])
-    pinion = EXPANSION * (heat.pinion_bulk - heat.reference + rises[0])
-    wheel = EXPANSION * (heat.wheel_bulk - heat.reference + rises[1])
+    pinion, wheel = (EXPANSION * (tooth - heat.reference + rise) for tooth, rise in zip(heat.teeth, rises, strict=True))
     difference = face_mean(pinion) - face_mean(wheel)
     excess = pinion * path.pitch_point + wheel * (path.pair.line_of_action - path.pitch_point)
     excess += path.plane.tan_base_helix * _integral(stations, pinion - wheel)

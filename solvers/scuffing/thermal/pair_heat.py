@@ -1,30 +1,20 @@
 """The heat balance of a loaded pair: losses of the mesh, heat taken up by the oil, and temperatures of the flanks."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from solvers import heat_balance
 from solvers.arrays import FloatArray
-from solvers.gears.inputs import GearPairInputs
-from solvers.gears.pair import GearPair, PathOfContact, gear_pair
+from solvers.gears.pair import GearPair, PathOfContact
 from solvers.heat_balance import GearGeometry, Heat, HeatBalanceInputs, MeshHeat, cooling_oil, share_to_pinion
 from solvers.heat_balance.losses import VISCOSITY_EXPONENT
 from solvers.materials import Solid
+from solvers.oils import lubricant_at
 from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs
-from solvers.scuffing.results import LoadDistribution
-from solvers.scuffing.thermal.practice import FLOODED_UP_TO
+from solvers.scuffing.mesh_results import friction_loss
+from solvers.scuffing.results import FrictionLoss, LoadDistribution
+from solvers.scuffing.thermal.practice import loss_friction
 
 STEEL_EXPANSION = 12e-6  # 1/K, thermal expansion of gears and casing
-
-
-def is_beyond_the_estimate(gears: GearPairInputs, pinion_speed: float) -> bool:
-    """Return True if the pair is too fast for the bulk temperature of ISO/TR 13989-1.
-
-    If the pitch-line velocity exceeds 60 m/s, the flanks are not flooded with oil, and the bulk temperature of the
-    standard is too low. `pinion_speed` is in rad/s. Raises the errors of `gear_pair`.
-    """
-    return pinion_speed * gear_pair(gears).pinion_working_radius > FLOODED_UP_TO
 
 
 def pair_heat(inputs: ScuffingInputs, distribution: LoadDistribution, estimate: float | None) -> Heat:
@@ -81,15 +71,6 @@ def with_backlash_loss(heat: Heat, pair: GearPair) -> Heat:
     return heat_balance.backlash_loss(heat, radii, pair.working_pressure_angle, STEEL_EXPANSION)
 
 
-def with_flanks(inputs: ScuffingInputs, heat: Heat) -> ScuffingInputs:
-    """Return the inputs with the flank temperatures of the heat balance.
-
-    The bulk temperature becomes the mean of both flank temperatures.
-    """
-    flanks = (heat.pinion.flank, heat.wheel.flank)
-    return replace(inputs, temperatures=replace(inputs.temperatures, bulk=sum(flanks) / 2, flanks=flanks))
-
-
 def gear_geometries(given: LoadDistributionInputs, path: PathOfContact) -> tuple[GearGeometry, GearGeometry]:
     """Return the geometry of both gears for the heat balance, without their shafts."""
     pair, speed = path.pair, abs(given.load.pinion_speed)
@@ -114,15 +95,28 @@ def gear_geometries(given: LoadDistributionInputs, path: PathOfContact) -> tuple
 def mesh_heat(inputs: ScuffingInputs, distribution: LoadDistribution) -> MeshHeat:
     """Return the friction of the mesh in the form that the heat balance uses.
 
-    In the heat balance, the friction depends on the viscosity of the oil, and therefore on the temperature. But if the
-    user gives the coefficient of friction, the friction is constant.
+    In the heat balance, the friction follows the viscosity of the oil, and therefore the temperature. A coefficient of
+    friction that the user gives is constant, and does not size the oil flow.
     """
+    power, by_formula = distribution.friction_loss.power or 0.0, None
+    if inputs.friction == "given" and power > 0.0:
+        by_formula = friction_by_formula(inputs, distribution).power
     return MeshHeat(
-        power=distribution.friction_loss.power or 0.0,
+        power=power,
         temperature=inputs.temperatures.oil,
         share_to_pinion=friction_to_pinion(inputs.distribution, distribution),
         viscosity_exponent=0.0 if inputs.friction == "given" else VISCOSITY_EXPONENT,
+        by_formula=by_formula,
     )
+
+
+def friction_by_formula(inputs: ScuffingInputs, distribution: LoadDistribution) -> FrictionLoss:
+    """Friction loss with Schlenk's coefficient at the oil temperature; the oil must be known."""
+    given, path, temperature = inputs.distribution, distribution.path_of_contact, inputs.temperatures.oil
+    assert inputs.known_oil is not None
+    lubricant = lubricant_at(inputs.known_oil, temperature)
+    coefficient = loss_friction(given, path, lubricant.viscosity_at(0.0, temperature), lubricant.kind)
+    return friction_loss(path, distribution.balance, given.load, coefficient)
 
 
 def friction_to_pinion(given: LoadDistributionInputs, distribution: LoadDistribution) -> float:

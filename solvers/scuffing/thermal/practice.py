@@ -19,7 +19,6 @@ OIL_KIND_LOSS_FACTOR: dict[OilKind, float] = {"mineral": 1.0, "pao": 0.8, "polyg
 LEAST_LINE_LOAD = 150.0  # N/mm, lower limit in both friction laws
 FASTEST_PITCH_LINE = 50.0  # m/s, upper limit of v_t in both friction laws
 TEST_TEMPERATURE = 363.15  # K, oil temperature in the FZG test A/8.3/90
-FLOODED_UP_TO = 60.0  # m/s, pitch-line velocity; at higher velocities the estimated bulk temperature is a lower bound
 FLASH_SHARE = 0.47  # ratio of the rise of the bulk temperature to the mean flash temperature, if X_S = 1
 HIGH_RISK_BELOW, LOW_RISK_ABOVE = 1.0, 2.0  # limits of the safety factor; quoted, not verified against the standard
 

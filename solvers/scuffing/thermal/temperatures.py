@@ -15,19 +15,20 @@ import numpy as np
 
 from solvers.errors import InvalidInput
 from solvers.gears.pair import PathOfContact
-from solvers.heat_balance import Heat
-from solvers.heat_balance.inputs import Cooling
+from solvers.heat_balance import Heat, network_of
 from solvers.lubricants import Lubricant
-from solvers.notices import Notice
+from solvers.notices import Notice, Rank
 from solvers.oils import OilSheet, lubricant_at
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.mesh_results import friction_loss
+from solvers.scuffing.model import solve
 from solvers.scuffing.results import LoadDistribution
+from solvers.scuffing.safety_results import BulkInForce
 from solvers.scuffing.thermal.blok import blok_flash
+from solvers.scuffing.thermal.bulk import FLOODED_UP_TO, STARVED_FROM, BulkRule, balance_share, method_asked
 from solvers.scuffing.thermal.flank import FlashMap, contact_at_points, map_flash, mean_flash
-from solvers.scuffing.thermal.pair_heat import pair_heat, with_flanks
+from solvers.scuffing.thermal.pair_heat import balance_inputs, pair_heat
 from solvers.scuffing.thermal.practice import (
-    FLOODED_UP_TO,
     TEST_TEMPERATURE,
     bulk_temperature,
     loss_friction,
@@ -45,35 +46,60 @@ MEAN_POINTS = 1001  # number of points for the mean flash temperature along the 
 class InForce(NamedTuple):
     """Inputs and load distribution of a scuffing check, completed by the estimated values.
 
-    `flash` is Blok's flash temperature over the flank. `heat` is the heat balance of the pair; None if no heat balance
-    was solved.
+    `flash` is Blok's flash temperature over the flank, `rule` how the bulk temperature follows from estimate and heat
+    balance, and `bulk` what ran. `heat` is the heat balance of the pair; None if none was solved.
     """
 
     inputs: ScuffingInputs
     distribution: LoadDistribution
     flash: FlashMap
     heat: Heat | None
+    rule: BulkRule
+    bulk: BulkInForce
 
 
 def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
-    """Estimate values that are not given, and insert these values into the inputs and the load distribution.
+    """Estimate what is not given of friction, temperatures and oil, and insert it into inputs and load distribution.
 
-    These values concern the friction, the temperatures and the oil. If `bulk_method` is "heat_balance", the heat
-    balance of the pair is solved, except in two cases:
-    - No oil is given. The heat balance cannot be solved without an oil.
-    - The flank temperatures are given. This is the case if the pair belongs to a gear unit, because the heat balance of
-      the unit is solved before the pair is checked.
+    The heat balance of the pair is solved where it can affect the bulk temperature. The pair of a gear unit comes with
+    the flanks of the unit's heat balance, if there is one.
 
     Raises the errors of `with_friction`, `pair_heat` and `with_temperatures`.
     """
     inputs, distribution = with_friction(inputs, distribution)
     flash = map_flash(inputs.distribution, distribution)
-    heat, temperatures = None, inputs.temperatures
-    is_unbalanced = temperatures.bulk_method == "heat_balance" and temperatures.flanks is None
-    if is_unbalanced and inputs.known_oil is not None:
-        heat = pair_heat(inputs, distribution, estimated_bulk(inputs, distribution, flash))
-        inputs = with_flanks(inputs, heat)
-    return InForce(with_temperatures(inputs, distribution, flash), distribution, flash, heat)
+    rule = bulk_rule(inputs, distribution, flash)
+    heat, temperatures, flanks = None, inputs.temperatures, inputs.temperatures.flanks
+    if flanks is None and rule.takes_balance and inputs.known_oil is not None:
+        heat = pair_heat(inputs, distribution, rule.estimate)
+        flanks = heat.pinion.flank, heat.wheel.flank
+    if flanks is not None and rule.method in {None, "heat_balance"}:
+        surfaces = rule.surfaces(flanks)
+        bulk = None if surfaces is None else sum(surfaces) / 2
+        temperatures = replace(temperatures, bulk=bulk, flanks=surfaces)
+    elif rule.method != "given":
+        temperatures = replace(temperatures, bulk=rule.estimate)
+    complete = with_temperatures(replace(inputs, temperatures=temperatures))
+    return InForce(complete, distribution, flash, heat, rule, rule.in_force(flanks))
+
+
+def bulk_rule(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> BulkRule:
+    """Return how the bulk temperature follows from the estimate and from a heat balance."""
+    oil = inputs.known_oil
+    method = method_asked(inputs.temperatures, inputs.cooling, has_oil=oil is not None)
+    estimate = None if oil is None or method == "given" else estimated_bulk(inputs, distribution, flash)
+    speed = pitch_line_velocity(inputs.distribution, distribution.path_of_contact)
+    return BulkRule(method, estimate, balance_share(speed) if method is None else None)
+
+
+def sized_flow(inputs: ScuffingInputs) -> float | None:
+    """Oil flow to the gears that is sized where none is given [m^3/s]; None if one is given, or if no balance runs."""
+    has_oil = inputs.known_oil is not None
+    method = method_asked(inputs.temperatures, inputs.cooling, has_oil=has_oil)
+    if inputs.cooling.gear_flow is not None or not has_oil or method not in {None, "heat_balance"}:
+        return None
+    rubbing, distribution = with_friction(inputs, solve(inputs.distribution))
+    return network_of(balance_inputs(rubbing, distribution)).spray.flow
 
 
 def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tuple[ScuffingInputs, LoadDistribution]:
@@ -101,25 +127,22 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
     return rubbing, replace(distribution, friction_loss=loss)
 
 
-def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> ScuffingInputs:
-    """Return the inputs with the bulk temperature, the scuffing temperature, and the lubricant at the bulk temperature.
+def with_temperatures(inputs: ScuffingInputs) -> ScuffingInputs:
+    """Return the inputs with the scuffing temperature, and with the lubricant at the bulk temperature.
 
-    If no oil is given, the bulk temperature and the lubricant are None. If `bulk_method` is "estimated", the bulk
-    temperature is computed from the mean flash temperature. This mean is not defined if the flash temperature is NaN at
-    some point; in this case the bulk temperature and the lubricant are also None.
+    If no oil is given, the bulk temperature and the lubricant are None. Without a bulk temperature, the lubricant is
+    None.
 
     Raises
     ------
     InvalidInput
-        `missing_bulk` if the bulk temperature is neither given nor estimated; `oil_temperature` if the oil is given by
-        its data sheet and the bulk temperature is outside the range of such oils; `scuffing_temperature` if the
+        `missing_bulk` if the method needs a bulk temperature that is not given; `oil_temperature` if the bulk
+        temperature is outside the range of an oil that is given by its data sheet; `scuffing_temperature` if the
         scuffing temperature is not above the oil temperature.
     """
     temperatures, oil = inputs.temperatures, inputs.known_oil
     if oil is None:
-        return replace(inputs, temperatures=replace(temperatures, bulk=None))
-    if temperatures.bulk_method == "estimated":
-        temperatures = replace(temperatures, bulk=estimated_bulk(inputs, distribution, flash))
+        return replace(inputs, temperatures=replace(temperatures, bulk=None, flanks=None))
     if temperatures.scuffing_test is not None:
         test = temperatures.scuffing_test
         factor = _oil_factor(oil, TEST_TEMPERATURE) if test.lubricant_factor is None else test.lubricant_factor
@@ -130,22 +153,33 @@ def with_temperatures(inputs: ScuffingInputs, distribution: LoadDistribution, fl
         message = "the scuffing temperature must be above the oil temperature"
         raise InvalidInput("scuffing_temperature", message, "temperatures.scuffing")
     bulk = temperatures.bulk
-    if bulk is None and temperatures.bulk_method != "estimated":
+    if bulk is None and temperatures.bulk_method in {"given", "heat_balance"}:
         message = f"the method '{temperatures.bulk_method}' needs a bulk temperature; give a bulk temperature"
         raise InvalidInput("missing_bulk", message, "temperatures.bulk")
     if bulk is None:
         return replace(inputs, temperatures=temperatures, oil=oil, lubricant=None)
     if isinstance(oil, OilSheet) and not COLDEST_OIL <= bulk <= HOTTEST_OIL:
-        message = (
-            f"the oil would enter the contact at {bulk - 273.15:.4g} °C, but the grade and the data sheet are not "
-            "valid at this temperature; reduce the load, give another bulk temperature, or give the viscosity of the "
-            "oil"
-        )
-        raise InvalidInput("oil_temperature", message, "temperatures.bulk_method")
+        raise _oil_out_of_range(inputs, bulk)
     return replace(inputs, temperatures=temperatures, lubricant=lubricant_at(oil, bulk))
 
 
-def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]:
+def _oil_out_of_range(inputs: ScuffingInputs, bulk: float) -> InvalidInput:
+    """Say what to change if the oil's data do not hold at the bulk temperature [K]."""
+    flow = inputs.cooling.gear_flow
+    if inputs.temperatures.flanks is not None and flow is not None:
+        message = (
+            f"the flanks would reach {bulk - 273.15:.4g} °C with {flow * 6e4:.4g} l/min of oil; is the oil flow "
+            "really in l/min?"
+        )
+        return InvalidInput("oil_temperature", message, "cooling.gear_flow")
+    message = (
+        f"the oil would enter the contact at {bulk - 273.15:.4g} °C, but the grade and the data sheet are not valid at "
+        "this temperature; reduce the load, give another bulk temperature, or give the viscosity of the oil"
+    )
+    return InvalidInput("oil_temperature", message, "temperatures.bulk_method")
+
+
+def oil_notices(inputs: ScuffingInputs, path: PathOfContact, bulk: BulkInForce) -> Iterator[Notice]:
     """Warn of a missing oil or bulk temperature, of doubtful estimates, and of unused inputs of the cooling."""
     if inputs.known_oil is None:
         message = (
@@ -154,7 +188,7 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
         )
         yield Notice("no_oil", message, "lubricant", rank="note")
         return
-    yield from _material_notices(inputs)
+    yield from _material_notices(inputs, bulk)
     if inputs.temperatures.bulk is None:
         message = (
             "the bulk temperature cannot be estimated, because the path of contact reaches a base circle, where the "
@@ -164,25 +198,30 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact) -> Iterator[Notice]
         yield Notice("no_bulk_estimate", message, "temperatures.bulk_method", rank="invalid")
         return
     speed = pitch_line_velocity(inputs.distribution, path)
-    if inputs.temperatures.bulk_method == "estimated" and speed > FLOODED_UP_TO:
+    if bulk.bulk_method == "estimated" and bulk.balance_share is None and speed > FLOODED_UP_TO:
         message = (
-            f"the bulk temperature is estimated for flooded flanks. At {speed:.4g} m/s (above 60 m/s) this estimate "
-            "is only a lower bound; the real contact temperature is higher and the real safety is lower than stated"
+            f"estimated bulk temperature is a lower bound: it holds for flooded flanks, and at {speed:.4g} m/s (above "
+            f"{FLOODED_UP_TO:g} m/s) jets or a sump wet them less. The real contact temperature is higher and the real "
+            "safety lower than stated"
         )
-        yield Notice("bulk_lower_bound", message, "temperatures.bulk_method")
-    if inputs.temperatures.bulk_method != "heat_balance" and inputs.cooling != Cooling():
-        message = (
-            "the inputs of the cooling are used only if bulk_method is 'heat_balance'; here bulk_method is "
-            f"'{inputs.temperatures.bulk_method}'"
-        )
+        rank: Rank = "doubtful" if speed > STARVED_FROM else "note"
+        yield Notice("bulk_lower_bound", message, "temperatures.bulk_method", rank=rank)
+    if bulk.bulk_balance is None and inputs.cooling.states_anything:
+        why = f"the bulk temperature is {bulk.bulk_method}"
+        if bulk.balance_share == 0.0:
+            why = (
+                f"up to {FLOODED_UP_TO:g} m/s the flanks are taken as flooded, and the bulk temperature is estimated; "
+                "set bulk_method to heat_balance to use them"
+            )
+        message = f"the inputs of the cooling are not used: {why}"
         yield Notice("cooling_not_used", message, "temperatures.bulk_method", rank="note")
 
 
-def _material_notices(inputs: ScuffingInputs) -> Iterator[Notice]:
+def _material_notices(inputs: ScuffingInputs, bulk: BulkInForce) -> Iterator[Notice]:
     """Warn if a gear is not made of steel and a value of the pair is estimated by a formula for steel gears."""
     estimates = {
         "the coefficient of friction": inputs.friction == "iso_tr_13989",
-        "the bulk temperature": inputs.temperatures.bulk_method == "estimated",
+        "the bulk temperature": bulk.bulk_method in {"estimated", "between"},
         "the scuffing temperature": inputs.temperatures.scuffing_test is not None,
     }
     estimated = [name for name, is_estimated in estimates.items() if is_estimated]

@@ -73,6 +73,7 @@ def test_the_worked_unit_with_its_own_losses_and_loads() -> None:
     assert found.safety.minimum == pytest.approx(2.14, abs=0.02)
     assert found.losses.bearings == pytest.approx(99.9e3, rel=0.025)
     assert found.losses.mesh == heat.losses.mesh
+    assert found.losses.oil_acceleration == max(heat.losses.oil_acceleration, 0.0)
     parts = (found.losses.coupling, found.losses.pumping, heat.losses.mesh, found.losses.bearings)
     assert found.losses.total == pytest.approx(sum(parts) + heat.losses.windage + heat.losses.oil_acceleration)
 

@@ -33,7 +33,8 @@ def test_one_lump_warms_exponentially() -> None:
         PAIR,
         {
             "mesh": MeshHeat(0.0, 300.0, 0.5, 0.0),
-            "spray.jet": PAIR.spray.velocity,
+            "spray.jet": 0.0,
+            "spray.velocity": 0.0,
             "spray.wetting_share": 1e-6,
             "mist_convection_factor": 1e-9,
             "recovery": 0.0,
