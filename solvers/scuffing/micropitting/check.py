@@ -8,6 +8,7 @@ from solvers.arrays import FloatArray
 from solvers.notices import Notice
 from solvers.scuffing.contact_slices import Peak
 from solvers.scuffing.inputs import MicropittingCheck, ScuffingInputs
+from solvers.scuffing.load_balance import BESIDE
 from solvers.scuffing.micropitting.local import FlankFilm, find_least, flank_film
 from solvers.scuffing.micropitting.notices import hot_film_notices, range_notices, standard_notices
 from solvers.scuffing.micropitting.oil_test import film_of_test, permissible_ratio
@@ -20,7 +21,6 @@ from solvers.scuffing.micropitting.results import (
     Verdict,
 )
 from solvers.scuffing.micropitting.standard import characteristic_points, has_standard_film, solve_standard
-from solvers.scuffing.load_balance import BESIDE
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.thermal.flank import FaceFunction, FlashMap
 

@@ -40,8 +40,8 @@ def wear_depths(coefficient: float, distribution: LoadDistribution) -> WearDepth
     -----
     Eq. M15 of the chapter on micropitting: the depth of wear per passage through the mesh is k w |v_g| / v_i. Here w is
     the line load, v_g is the sliding speed, and v_i is the surface speed of the gear. At a base circle the surface
-    speed of one gear is 0, and the depth of wear would be infinite. Near a base circle the result is therefore NaN under
-    load, and 0 without load.
+    speed of one gear is 0, and the depth of wear would be infinite. Near a base circle the result is therefore NaN
+    under load, and 0 without load.
     """
     path, flank = distribution.path_of_contact, distribution.flank
     speeds = np.stack(path.surface_speeds(flank.profile_fraction * path.length, 1.0))
