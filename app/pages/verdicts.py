@@ -147,9 +147,7 @@ def _pumping(response: PumpingResponse) -> str:
         for word in ("choked", "doubtful", "not choked")
     }
     if told["choked"]:
-        first = (
-            f"The mesh is choked: {listed(told['choked'])} {'becomes' if len(told['choked']) == 1 else 'become'} sonic"
-        )
+        first = f"The mesh is choked: {listed(told['choked'])}"
         rest = [f"doubtful: {listed(told['doubtful'])}"] if told["doubtful"] else []
         rest += [f"not choked: {listed(told['not choked'])}"] if told["not choked"] else []
         return "; ".join([first, *rest]) + "."

@@ -19,6 +19,7 @@ from tests.support.modified_pairs import random_pair
 from tests.support.properties import seeds
 
 EXACT = 1e-6
+PARTLY_LOADED = 1e-5  # lines loaded in part are cut anew until TE moves by less than 1e-6 of the approach
 PARTS = r"^(?!(flash|contact_temperature|film|safety|hottest_path|micropitting|wear)\.)"
 # The paper's feature line is a diagonal; its mirror image is the other one.
 DIAGONAL = r"_at_psi$|feature_line|^micropitting\.local\.points"
@@ -54,6 +55,10 @@ def exchanged(inputs: ScuffingInputs) -> ScuffingInputs:
     )
 
 
+def tolerance(found: Scuffing) -> float:
+    return EXACT if found.distribution.load.contact_fraction == 1.0 else PARTLY_LOADED
+
+
 @seeds(3, 300)
 def test_a_spur_pair_and_its_mirror_image(random: np.random.Generator) -> None:
     inputs = pair(random)
@@ -65,7 +70,7 @@ def test_a_spur_pair_and_its_mirror_image(random: np.random.Generator) -> None:
         return values[:, ::-1] if values.ndim == 2 else values
 
     without = f"{PARTS}|{DIAGONAL}|{PLACE}"
-    assert not differences(one, other, turned, tolerance=EXACT, without=without)
+    assert not differences(one, other, turned, tolerance=tolerance(one), without=without)
 
 
 @seeds(3, 300)
@@ -83,12 +88,14 @@ def test_a_pair_whose_wheel_drives(random: np.random.Generator) -> None:
             return 1.0 - turned
         return turned[:, ::-1] if turned.ndim == 2 else turned
 
-    points = r"^micropitting\.(local|standard)\.points|^micropitting\.test\."
-    assert not differences(one, other, expected, tolerance=EXACT, without=f"{PARTS}|{PLACE}|{points}")
+    points = r"^micropitting\.(local|standard)\.points|^micropitting\.test\.|^hottest_path.status"
+    assert not differences(one, other, expected, tolerance=tolerance(one), without=f"{PARTS}|{PLACE}|{points}")
+    if one.hottest_path is not None and other.hottest_path is not None:
+        assert one.hottest_path.status == other.hottest_path.status[::-1]
     ratios = [{each.point: each.ratio for each in found.micropitting.local.points} for found in (one, other)]
     image = {"A": "E", "AB": "DE", "B": "D", "C": "C", "D": "B", "DE": "AB", "E": "A"}
     for point, ratio in ratios[0].items():
-        assert ratios[1][image[point]] == (None if ratio is None else pytest.approx(ratio, rel=EXACT)), point
+        assert ratios[1][image[point]] == (None if ratio is None else pytest.approx(ratio, rel=tolerance(one))), point
 
 
 SWEPT = ("helix_slope", "lead_crowning", "torque")
@@ -118,6 +125,8 @@ def steps(answers: list[Scuffing]) -> list[str]:
             ("micropitting.local", "thermal_ehl_ratio"),
         ):
             values = [leaves(each)[f"{part}.{name}"].values for each in (one, other)]
+            if str(values[0]) == "None" == str(values[1]):
+                continue
             first, second = (float(np.ravel(value)[0]) for value in values)
             if not abs(second / first - 1.0) <= STEP:
                 told.append(f"{part}.{name}: {first:.6g} and {second:.6g}")
