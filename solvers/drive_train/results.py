@@ -224,8 +224,8 @@ class FlashPlaces:
 class TrainSafety:
     """Safety factors by Blok's method and by thermal EHL, on the feature line and over the flank.
 
-    Over the flank, thermal EHL is solved at the places that decide. A factor that is not known is None. If a factor is not known, `minimum` is
-    None too.
+    Over the flank, thermal EHL is solved at the places that decide. A factor that is not known is None. If a factor is
+    not known, `minimum` is None too.
     """
 
     blok_feature: float | None = quantity("safety factor on the feature line (flash temperature method)", "S_B,1")

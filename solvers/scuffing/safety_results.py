@@ -128,8 +128,8 @@ class Film:
 
     All values are None if no point is loaded, or if the loaded path reaches a base circle. `dowson_higginson_min` is
     the thinnest film over the flank by the formula of Dowson and Higginson. `thermal_ehl_min` is the thinnest film by
-    thermal EHL at the places of the flank that decide. If an unsolved place may have the thinnest film, all values except
-    `dowson_higginson_min` are None.
+    thermal EHL at the places of the flank that decide. If an unsolved place may have the thinnest film, all values
+    except `dowson_higginson_min` are None.
 
     Place, ratio and regime belong to one of the two films. If `thermal_ehl_min` is stated, they belong to
     `thermal_ehl_min`, even if `dowson_higginson_min` is thinner. Otherwise they belong to `dowson_higginson_min`.
@@ -371,7 +371,7 @@ class Scuffing:
     path: ScuffingPath = quantity("scuffing check along the feature line", detail="curves")
     hottest_path: ScuffingPath | None = quantity(
         "scuffing check along the hottest profile",
-        text="at `flash.thermal_ehl_at_face_mm`, in closed form at `flash.blok_at_face_mm`; null without a hottest place",
+        text="at `flash.thermal_ehl_at_face_mm`, in closed form at `flash.blok_at_face_mm`; null without load",
         detail="curves",
     )
     micropitting: Micropitting | None = quantity(
