@@ -86,20 +86,19 @@ def _checked_lines(request: Any) -> Cost:
     """Estimate the time to solve the contacts of a scuffing check.
 
     The contacts are solved along the feature line (the diagonal from A1 to E2). If the whole flank is checked, the
-    contacts are also solved along the profile line through the hottest place of the flank.
+    contacts are also solved along the profile line through the hottest place of the flank, and at a few places.
     """
     path = _thermal_path(request)
     return Cost((2 if request.model.line == "flank" else 1) * path.seconds, path.field)
 
 
-def _two_thermal_paths(request: Any) -> Cost:
+def _unit_states(request: Any) -> Cost:
     """Estimate the time to solve the contacts of a gear unit in all requested states.
 
-    In each state (hot or cold) the contacts are solved along two lines: the feature line, and the profile line through
-    the hottest place of the flank.
+    In each state (hot or cold) the contacts are solved along the feature line and at a few places of the flank.
     """
     path = _thermal_path(request)
-    return Cost(2 * len({*request.states}) * path.seconds, path.field)
+    return Cost(len({*request.states}) * path.seconds, path.field)
 
 
 def _choking_search(request: Any) -> Cost:
@@ -237,7 +236,7 @@ CALCULATIONS = (
         response=drive_train_schema.DriveTrainResponse,
         stage=DRIVE_TRAIN,
         figures=drive_train_figures.FIGURES,
-        cost=_two_thermal_paths,
+        cost=_unit_states,
         sized_flow=drive_train.sized_flow,
     ),
     Calculation(

@@ -67,7 +67,7 @@ def print_answer(endpoint: str, file: Path) -> None:
     request, print the reason and exit with status 1.
     """
     from app.calculations import BY_PATH  # noqa: PLC0415
-    from app.errors import InvalidBody, Unprocessable, Unreadable, faults_of  # noqa: PLC0415
+    from app.errors import InvalidBody, Unprocessable, Unreadable, faults_of, sentence  # noqa: PLC0415
     from app.evaluate import answer, content_of  # noqa: PLC0415
 
     gc.enable()
@@ -81,8 +81,7 @@ def print_answer(endpoint: str, file: Path) -> None:
     except Unreadable as error:
         sys.exit(f"tribodrive: {error.detail}")
     except (InvalidBody, Unprocessable) as error:
-        faults = (f"{fault['pointer'] or 'request'}: {fault['message']}" for fault in faults_of(error))
-        sys.exit("\n".join(f"tribodrive: {fault}" for fault in faults))
+        sys.exit("\n".join(f"tribodrive: {sentence(fault)}" for fault in faults_of(error)))
     _print_json(content)
     sys.exit(EXIT_STATUS[content["status"]])
 

@@ -3,8 +3,8 @@
 The table `PROBLEMS` states HTTP status, code and title for all exceptions except `InvalidBody` and `Unprocessable`.
 """
 
-from collections.abc import Iterable
-from typing import NamedTuple
+from collections.abc import Iterable, Mapping
+from typing import Any, NamedTuple
 
 LONGEST_POINTER_PART = 100  # characters; the names of all fields are shorter
 
@@ -18,6 +18,13 @@ class Fault(NamedTuple):
     pointer: str
     code: str
     message: str
+
+
+def sentence(fault: Mapping[str, Any]) -> str:
+    """Return the place of a fault and what to change there. The message may begin with the name of the place."""
+    place, message = fault["pointer"] or "request", fault["message"]
+    name = place.rpartition("/")[2]
+    return place + message.removeprefix(name) if message.startswith(f"{name} is ") else f"{place}: {message}"
 
 
 def pointer(location: Iterable[str | int]) -> str:

@@ -186,7 +186,13 @@ class OilSheet:
         "kinematic viscosity at 100 °C", "ν_100", "ASTM D341", unit="mm2_per_s", ge=1, le=1000
     )
     kind: OilKind = quantity(
-        "kind of oil", default="mineral", assumed="a mineral oil, where the data sheet's kind is not given"
+        "kind of oil",
+        default="mineral",
+        assumed="a mineral oil, where the data sheet's kind is not given",
+        if_above=(
+            "other oils, such as a phosphate ester, have no laws here; enter viscosity, density and pressure-viscosity "
+            "coefficient as a lubricant, with a measured coefficient of friction"
+        ),
     )
     density_15: float | None = quantity(
         "oil density at 15 °C",

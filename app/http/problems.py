@@ -11,7 +11,7 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 from starlette.exceptions import HTTPException
 
-from app.errors import PROBLEMS, Fault, InvalidBody, Kind, Unprocessable, faults_of, kind_of, pointer
+from app.errors import PROBLEMS, Fault, InvalidBody, Kind, Unprocessable, faults_of, kind_of, pointer, sentence
 from app.schema.quantities import Output
 from app.schema.reading import MOST_FAULTS
 
@@ -93,8 +93,8 @@ def answer(request: Request, error: Exception) -> JSONResponse:
         case InvalidBody() | Unprocessable():
             code = error.code if isinstance(error, Unprocessable) else "invalid_request"
             errors = faults_of(error)
-            detail = f"{errors[0]['pointer'] or 'request'}: {errors[0]['message']}"
-            return problem(instance, Kind(422, code, "The input cannot be computed"), detail, errors=errors)
+            kind = Kind(422, code, "The input cannot be computed")
+            return problem(instance, kind, sentence(errors[0]), errors=errors)
         case HTTPException():
             phrase = HTTPStatus(error.status_code).phrase
             code = phrase.lower().replace(" ", "_").replace("-", "_")

@@ -37,15 +37,10 @@ def conclusion(response: Response) -> str:
 
 
 def _of_pumping(response: PumpingResponse) -> dict[str, Verdict]:
-    """Judge choking, and mark uncertain numbers as doubtful.
-
-    The power, the temperature rise, the pressure and the Mach number are marked if they are uncertain.
-    """
-    judged = {
-        f"{gear}_spaces.{name}": judge(gear, space, response)
-        for gear, space in _spaces(response).items()
-        for name, judge in (("peak_axial_mach", _axial), ("peak_pressure_ratio", _radial))
-    }
+    """Judge choking, and mark the power and the temperature rise as doubtful if they are uncertain."""
+    spaces = _spaces(response).items()
+    judged = {f"{gear}_spaces.peak_axial_mach": _axial(gear, space, response) for gear, space in spaces}
+    judged |= {f"{gear}_spaces.peak_pressure_ratio": _radial(response) for gear, _ in spaces}
     resolution = response.resolution
     if resolution.pumping_power > UNCERTAIN:
         judged["total.pumping_power_w"] = _as_known(Verdict("plain", ""), resolution.pumping_power, "the power")
@@ -114,25 +109,21 @@ def _spaces(response: PumpingResponse) -> dict[str, Any]:
 
 
 def _axial(gear: str, space: Any, response: PumpingResponse) -> Verdict:
-    """Say whether the flow at an end of the tooth spaces is choked.
+    """Say whether the outflow and the inflow at the ends of the tooth spaces are choked, by the refined verdict."""
+    choking = response.choking
+    words = (choking.outflow, choking.inflow)
+    text = f"outflow {choking.outflow} (Ma {number(choking.outflow_mach, '')}), inflow {choking.inflow}"
+    text += f" (Ma {number(choking.inflow_mach, '')}), with {choking.slices} slices"
+    if "choked" not in words and space.peak_axial_mach > 1.0:
+        text += f"; inside the spaces of the {gear} the gas is faster than sound"
+        return Verdict("near", text)
+    return Verdict("bad" if "choked" in words else "near" if "doubtful" in words else "good", text)
 
-    The verdict is marked as doubtful if the Mach number is too uncertain.
-    """
-    supersonic = space.peak_axial_mach > 1.0 and not space.axial_choked
-    inside = "; inside the spaces the gas is faster than sound" if supersonic else ""
-    level = "bad" if space.axial_choked else "near" if supersonic else "good"
-    text = f"axial choking in the spaces of the {gear}: {'yes' if space.axial_choked else 'no'}{inside}"
-    return _as_known(Verdict(level, text), response.resolution.axial_mach, "the Mach number")
 
-
-def _radial(gear: str, space: Any, response: PumpingResponse) -> Verdict:
-    """Say whether the flow in radial clearances is choked.
-
-    The verdict is marked as doubtful if the pressure is too uncertain.
-    """
-    text = f"radial choking in the spaces of the {gear}: {'yes' if space.radial_choked else 'no'}"
-    verdict = Verdict("bad" if space.radial_choked else "good", text)
-    return _as_known(verdict, response.resolution.peak_pressure, "the pressure above ambient")
+def _radial(response: PumpingResponse) -> Verdict:
+    """Say whether the flow in radial clearances is choked, by the refined verdict."""
+    word = response.choking.clearances
+    return Verdict({"choked": "bad", "doubtful": "near"}.get(word, "good"), f"radial clearances {word}")
 
 
 def _as_known(verdict: Verdict, uncertainty: float, name: str) -> Verdict:
@@ -144,27 +135,38 @@ def _as_known(verdict: Verdict, uncertainty: float, name: str) -> Verdict:
 
 
 def _pumping(response: PumpingResponse) -> str:
-    """Say at which openings the flow becomes sonic."""
-    spaces = _spaces(response)
-    ends = [gear for gear, space in spaces.items() if space.axial_choked]
-    clearances = [gear for gear, space in spaces.items() if space.radial_choked]
-    resolution = response.resolution
-    doubt = max(resolution.axial_mach, resolution.peak_pressure)
-    if doubt > UNCERTAIN:
-        return f"It is not known whether the mesh is choked, because the results are uncertain by {percent(doubt)}."
-    if not ends and not clearances:
-        return "The mesh is not choked: the flow is below the speed of sound at the ends and at the radial clearances."
-    parts = []
-    if ends:
-        parts.append(f"at an end of the {listed(ends)}")
-    if clearances:
-        parts.append(f"at radial clearances of the {listed(clearances)}")
-    return f"The mesh is choked: the flow becomes sonic {' and '.join(parts)}."
+    """Say which flows become sonic: outflow and inflow at the ends, and the flow through the radial clearances."""
+    choking = response.choking
+    numbers = {
+        "the outflow at the ends": (choking.outflow, _mach(choking.outflow_mach, choking.outflow_uncertainty)),
+        "the inflow at the ends": (choking.inflow, _mach(choking.inflow_mach, choking.inflow_uncertainty)),
+        "the flow through the radial clearances": (choking.clearances, ""),
+    }
+    told = {
+        word: [f"{flow}{text}" for flow, (found, text) in numbers.items() if found == word]
+        for word in ("choked", "doubtful", "not choked")
+    }
+    if told["choked"]:
+        first = f"The mesh is choked: {listed(told['choked'])}"
+        rest = [f"doubtful: {listed(told['doubtful'])}"] if told["doubtful"] else []
+        rest += [f"not choked: {listed(told['not choked'])}"] if told["not choked"] else []
+        return "; ".join([first, *rest]) + "."
+    if told["doubtful"]:
+        return f"It is doubtful whether the mesh is choked, with {choking.slices} slices: {listed(told['doubtful'])}."
+    return f"The mesh is not choked: {listed(told['not choked'])} stay below the speed of sound."
+
+
+def _mach(mach: float, uncertainty: float) -> str:
+    return f" (Ma {number(mach, '')} ± {percent(uncertainty)})"
 
 
 def _choking(response: ChokingSpeedResponse) -> str:
     """Say above which pinion speeds the mesh is choked."""
-    speeds = {"ends": response.axial_choking_speed_rpm, "radial clearances": response.radial_choking_speed_rpm}
+    speeds = {
+        "ends (outflow)": response.axial_choking_speed_rpm,
+        "ends (inflow)": response.inflow_choking_speed_rpm,
+        "radial clearances": response.radial_choking_speed_rpm,
+    }
     sonic = [f"at the {place} from {number(speed, '1/min')}" for place, speed in speeds.items() if speed is not None]
     never = [
         f"not at the {place} up to {number(response.inputs['search_limit_rpm'], '1/min')}"

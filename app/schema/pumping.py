@@ -113,6 +113,14 @@ class PumpingField(Group, of=results.GasField):
     views: ClassVar = {"axial_mach": View(limit=1.0)}
 
 
+class PumpingEnd(Group, of=results.EndOfFace):
+    """Mach numbers of outflow and inflow at an end of the face."""
+
+
+class PumpingChoking(Group, of=results.Choking):
+    """Whether the flow becomes sonic at the ends of the face and at the radial clearances."""
+
+
 class PumpingSpaces(Group, of=results.SpacesResult):
     """Results of the tooth spaces of one gear."""
 
@@ -160,10 +168,10 @@ class PumpingResolution(Group, of=results.Resolution):
 class ChokingCurves(Group, of=results.ChokingCurves):
     """Results of a coarse scan of the pinion speed.
 
-    Pressure ratio and exit Mach number are the largest values among the selected tooth spaces at each speed.
+    Pressure ratio and Mach numbers are the largest values among the selected tooth spaces at each speed.
     """
 
-    views: ClassVar = {"exit_mach": View(limit=1.0)}
+    views: ClassVar = {"exit_mach": View(limit=1.0), "inflow_mach": View(limit=1.0)}
 
 
 class PumpingDerived(Derived, of=results.Derived):
@@ -183,4 +191,5 @@ class ChokingSpeedResponse(Response, of=results.ChokingSpeeds):
     views: ClassVar = {
         "radial_choking_speed": View(headline=1, limit="search_limit_rpm"),
         "axial_choking_speed": View(headline=2, limit="search_limit_rpm"),
+        "inflow_choking_speed": View(headline=3, limit="search_limit_rpm"),
     }

@@ -22,6 +22,7 @@ Models = tuple[type[BaseModel], ...]
 MOST_FAULTS = 100  # largest number of faults in one answer; chosen: nobody corrects more at once
 _NAME = re.compile(r"[A-Za-z0-9_]{1,40}")
 _NUMBER = re.compile(r"[+-]?\d{1,20}([.,]\d{1,20})?")
+_RANGE = re.compile(r"\s*(\d{1,20}(?:[.,]\d{1,20})?)\s*(?:-|\u2013|\u2212|\.\.\.?|to)\s*(\d{1,20}(?:[.,]\d{1,20})?)\s*")
 _RANGE_TYPES = {"greater_than", "greater_than_equal", "less_than", "less_than_equal"}
 _NUMBER_TYPES = {"float_type", "int_type"}
 _SECTION_TYPES = {"model_type", "model_attributes_type", "dict_type", "dataclass_type"}
@@ -110,7 +111,7 @@ def _message(location: list[str | int], sections: Models, item: dict[str, Any]) 
         "string_type": "give text",
         "union_tag_not_found": f"{context.get('discriminator')} is required",
         "union_tag_invalid": f"{context.get('discriminator')}: must be one of {context.get('expected_tags')}",
-        "literal_error": f"{name}: must be one of {choices}",
+        "literal_error": f"{name}: must be one of {choices}{_advice(sections, name, value)}",
         "enum": f"{name}: must be one of {choices}",
         "too_short": f"{name} needs at least {context.get('min_length')} values",
         "too_long": f"{name} takes at most {context.get('max_length')} values",
@@ -133,6 +134,9 @@ def _no_number(value: Any) -> str:
         return "give a number, not true or false"
     if isinstance(value, int):  # this whole number is larger than any float
         return f"the number is {_figure(value)}"
+    if isinstance(value, str) and (ends := _RANGE.fullmatch(value)):
+        low, high = (end.replace(",", ".") for end in ends.groups())
+        return f'give a number, not the range "{value}"; for a range enter two values: {low} and {high}'
     if isinstance(value, str) and _NUMBER.fullmatch(value):
         return f'give a number, not text: {value.replace(",", ".")} instead of "{value}"'
     return "give a number, not text" if isinstance(value, str) else "give a number here"

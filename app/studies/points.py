@@ -255,10 +255,13 @@ def solve_point(question: Question, overrides: Overrides) -> Point:
     except Exception:
         logger.exception("a point of a study failed")
         return question.failed("internal_error", "something went wrong in the service; the log has the cause")
+    ranks: dict[str, Rank] = {}  # a code counts once at a point, also if it holds for both gears
+    for warning in answer.warnings:
+        ranks.setdefault(warning.code, warning.rank)
     return Point(
         answer.status,
         [value_at(answer, path) for path in question.outputs],
-        [warning.code for warning in answer.warnings],
+        [*ranks],
         assumptions=(*map(dict, answer.assumptions), *(() if with_flow is request else (_assumed_flow(question),))),
-        ranks=tuple(warning.rank for warning in answer.warnings),
+        ranks=tuple(ranks.values()),
     )

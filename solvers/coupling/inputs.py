@@ -312,7 +312,8 @@ class Friction:
         ge=0,
         le=2,
         default_text="the law of the friction regime",
-        assumed="no coefficient given: the law of the friction regime, ours inside the paper's bands",
+        assumed="no coefficient given: our law of the friction regime, inside the paper's bands except in area 1.2; "
+        "there it rises from the mixed friction of area 1.1 to the paper's 0.1, so that the thrust has no step",
         tolerance=0.02,
     )
     static_coefficient: float | None = quantity(

@@ -222,11 +222,10 @@ class FlashPlaces:
 
 @record
 class TrainSafety:
-    """Safety factors by Blok's method on the feature line and over the flank, and by thermal EHL on two lines.
+    """Safety factors by Blok's method and by thermal EHL, on the feature line and over the flank.
 
-    Thermal EHL is solved on the feature line and on a profile line. The profile line runs from A to E through
-    `blok_at`, the hottest place by Blok. A factor that is not known is None. If a factor is not known, `minimum` is
-    None too.
+    Over the flank, thermal EHL is solved at the places that decide. A factor that is not known is None. If a factor is
+    not known, `minimum` is None too.
     """
 
     blok_feature: float | None = quantity("safety factor on the feature line (flash temperature method)", "S_B,1")
@@ -234,9 +233,9 @@ class TrainSafety:
     blok_at: Place | None = quantity("hottest place by Blok", text="null without load")
     thermal_ehl_feature: float | None = quantity("safety factor on the feature line (thermal EHL)", "S_T,1")
     thermal_ehl_profile: float | None = quantity(
-        "safety factor on the worst profile (thermal EHL)",
+        "safety factor on the flank (thermal EHL)",
         "S_T,2",
-        text="on the profile line through the hottest place by Blok",
+        text="at the places of the flank that decide",
     )
     minimum: float | None = quantity(
         "safety factor against scuffing", "S_B", text="least of all; null where one is unknown"

@@ -1,6 +1,5 @@
 """Scuffing over the whole flank of a unit: bulk temperature along the face, flash temperature and safety factors."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,8 +22,11 @@ from solvers.scuffing.thermal.flank import (
     FlashMap,
     contact_at_points,
     find_hottest,
+    find_thinnest,
+    formula_film,
 )
-from solvers.scuffing.thermal.thermal_path import thermal_paths
+from solvers.scuffing.thermal.places import Places, solve_places
+from solvers.scuffing.thermal.thermal_path import solve_line, solver_notices
 from solvers.scuffing.thermal.verdict import hotter_surface, unknown_points
 
 
@@ -57,7 +59,9 @@ def contact_of(inputs: DriveTrainInputs) -> ScuffingInputs:
 
 
 def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap, thermal: ThermalLead) -> FlankHeat:
-    """Compute Blok's temperatures on the feature line and over the flank, and solve the thermal EHL on two lines.
+    """Compute Blok's temperatures on the feature line and over the flank, and solve the thermal EHL.
+
+    Thermal EHL is solved on the feature line and at the places of the flank that decide.
 
     Parameters
     ----------
@@ -99,10 +103,14 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap
         contacts = [None, None] if hottest is None else [float(warm_feature.max()), hottest.value]
     unsolved, warnings, thinnest = 0, tuple[Notice, ...](), None
     if inputs.mesh.lubrication == "thermal_ehl" and has_bulk and hottest is not None:
-        paths, bulks, warnings = _thermal_lines(inputs, mesh, (along, across), hottest, bulk)
-        contacts += [_hottest_surface(*line) for line in zip(paths, bulks, strict=True)]
-        thinnest = _thinnest_film(paths, bulks)
-        unsolved = sum(path.status.count(status) for path in paths for status in ("no_solution", "refused"))
+        line = solve_line(inputs.mesh, feature)
+        places = _places(inputs, mesh, flash, hottest, bulk)
+        solved = [line] if places is None else [line, places.solved]
+        warnings = solver_notices(solved)
+        contacts.append(_hottest_surface(line.path, _of_both_surfaces(inputs, bulk(across))))
+        contacts.append(None if places is None else _hottest_surface(places.solved.path, places.surfaces))
+        thinnest = None if places is None else _thinnest_film(places)
+        unsolved = sum(each.path.status.count(status) for each in solved for status in ("no_solution", "refused"))
     micropitting = check_micropitting(inputs.mesh, mesh, flash, thinnest, bulk if inputs.local_bulk else None)
     place = None
     if strongest is not None and hottest is not None and strongest.value > 0.0:
@@ -170,24 +178,24 @@ def _bulk(inputs: DriveTrainInputs, thermal: ThermalLead, y: FloatArray) -> Floa
     return bulk
 
 
-def _thermal_lines(
-    inputs: DriveTrainInputs,
-    mesh: LoadDistribution,
-    feature: tuple[FloatArray, FloatArray],
-    hottest: Peak,
-    bulk: FaceFunction,
-) -> tuple[tuple[ThermalPath, ...], list[FloatArray], tuple[Notice, ...]]:
-    """Solve thermal EHL on the feature line (x, y) and on the profile line through the hottest point.
-
-    Return both lines, their bulk temperatures [K] and the warnings.
-    """
-    even = np.linspace(0.0, mesh.path_of_contact.plane.path_length, inputs.mesh.path_points)
-    profile = np.unique([*even, hottest.x])
-    places = [feature, (profile, np.full(profile.size, hottest.y))]
-    paths, warnings = thermal_paths(
-        inputs.mesh, [contact_at_points(inputs.mesh.distribution, mesh, *line) for line in places]
+def _places(
+    inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap, hottest: Peak, bulk: FaceFunction
+) -> Places | None:
+    """Solve thermal EHL at the places of the flank that decide; None without a loaded contact."""
+    film_at = formula_film(inputs.mesh)
+    thinnest = find_thinnest(inputs.mesh.distribution, mesh, flash, film_at)
+    if thinnest is None:
+        return None
+    mean = inputs.mesh.temperatures.bulk
+    return solve_places(
+        inputs.mesh,
+        mesh,
+        flash,
+        film_at,
+        (hottest, thinnest),
+        lambda y: _of_both_surfaces(inputs, bulk(y)),
+        lambda y: bulk(y) - mean,
     )
-    return paths, [_of_both_surfaces(inputs, bulk(y)) for _, y in places], warnings
 
 
 def _of_both_surfaces(inputs: DriveTrainInputs, bulk: FloatArray) -> FloatArray:
@@ -199,24 +207,25 @@ def _of_both_surfaces(inputs: DriveTrainInputs, bulk: FloatArray) -> FloatArray:
 
 
 def _hottest_surface(path: ThermalPath, bulk: FloatArray) -> float | None:
-    """Return the temperature of the hottest flank surface on a line [K], computed by thermal EHL.
+    """Return the temperature of the hottest flank surface at points of the flank [K], computed by thermal EHL.
 
-    Return None if no point of the line is loaded. Also return None if an unsolved point may be hotter, or may have a
+    Return None if no point is loaded. Also return None if an unsolved point may be hotter, or may have a
     thinner film, than every solved point.
     """
-    if set(path.status) == {"unloaded"} or unknown_points([path], [bulk]):
+    if set(path.status) == {"unloaded"} or unknown_points(path, bulk):
         return None
     return float(np.nanmax(hotter_surface(path, bulk)))
 
 
-def _thinnest_film(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) -> float | None:
-    """Return the thinnest film on all lines [m], computed by thermal EHL.
+def _thinnest_film(places: Places) -> float | None:
+    """Return the thinnest film of the flank [m], computed by thermal EHL.
 
-    Return None if no point has a film. Also return None if an unsolved point may have a thinner film, or may be hotter,
-    than every solved point.
+    Return None if no place has a film. Also return None if an unsolved place may have a thinner film, or may be hotter,
+    than every solved place.
     """
-    films = np.concatenate([path.minimum_film for path in paths])
-    return None if np.isnan(films).all() or unknown_points(paths, bulks) else float(np.nanmin(films))
+    films = places.solved.path.minimum_film
+    unknown = np.isnan(films).all() or unknown_points(places.solved.path, places.surfaces)
+    return None if unknown else float(np.nanmin(films))
 
 
 def _safety(inputs: DriveTrainInputs, hottest: list[float | None], worst: Place | None) -> TrainSafety | None:
@@ -226,7 +235,7 @@ def _safety(inputs: DriveTrainInputs, hottest: list[float | None], worst: Place 
     limit, oil = temperatures.scuffing, temperatures.oil
     factors = [None if contact is None else safety_factor(limit, oil, contact) for contact in hottest]
     finite = [factor for factor in factors if factor is not None]
-    feature, profile = factors[2:] if len(factors) > 2 else (None, None)
+    feature, places = factors[2:] if len(factors) > 2 else (None, None)
     # A known contact without a factor is as cool as the oil: its safety has no bound and is not the least.
     least = min(finite, default=None) if None not in hottest else None
-    return TrainSafety(factors[0], factors[1], worst, feature, profile, least)
+    return TrainSafety(factors[0], factors[1], worst, feature, places, least)

@@ -15,6 +15,7 @@ from solvers.pumping.checks import check_speed
 from solvers.pumping.inputs import ChokingInputs, Flow, rpm
 from solvers.pumping.results import ChokingCurves, ChokingSpeeds
 from solvers.pumping.spaces import CELL_STEP_LIMIT, Mesh, Space, derived, flow_at, prepare
+from solvers.pumping.verdict import bands, decide, on_grids
 
 _COARSENING = 4  # the number of slices is divided by this factor while the speeds are bracketed
 _BRACKET = log(1.1)  # half width of the bracket around the result of the coarse grid, as a logarithm of the speed
@@ -48,7 +49,8 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
 
     Notes
     -----
-    Eq. P11. A radial gap chokes if the largest pressure, divided by the ambient pressure, reaches the inverse of the
+    Eq. P11. The air that fills the spaces chokes where its expansion to the pressure in the space would exceed Mach 1.
+    A radial gap chokes if the largest pressure, divided by the ambient pressure, reaches the inverse of the
     critical ratio. An exit chokes if the gas would reach Mach 1 by an expansion to ambient pressure. A scan on a coarse
     grid brackets the choking speeds. Further solutions on the full grid then refine the choking speeds.
     """
@@ -66,44 +68,63 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
     scan = _scan(rough, top)
     radial = _find_lowest([(r.radial, f.radial) for r, f in zip(rough, fine, strict=True)], scan)
     axial = _find_lowest([(r.axial, f.axial) for r, f in zip(rough, fine, strict=True)], scan)
-    notices = [
-        Notice(
-            "beyond_search_limit",
-            f"the flow through the {name} stays below the speed of sound up to {rpm(exp(top)):.6g} rpm",
-            "search_limit",
-            rank="note",
-        )
-        for name, speed in (("radial gap", radial), ("axial exit", axial))
-        if speed is None
-    ]
-    return ChokingSpeeds(radial, axial, _curves(mesh, rough, scan), derived(mesh), (*mesh.notices, *notices))
+    inflow = _find_lowest([(r.inflow, f.inflow) for r, f in zip(rough, fine, strict=True)], scan)
+    notices = _beyond_limit(mesh, inputs.search_limit, radial, axial, inflow)
+    return ChokingSpeeds(radial, axial, inflow, _curves(mesh, rough, scan), derived(mesh), (*mesh.notices, *notices))
+
+
+def _beyond_limit(
+    mesh: Mesh, limit: float, radial: float | None, axial: float | None, inflow: float | None
+) -> list[Notice]:
+    """Say which flows are not sonic up to the search limit, and for which of them this is doubtful.
+
+    The verdict follows the rule of a calculation at one speed, but the number of slices stays as it is.
+    """
+    speeds = {"clearances": radial, "outflow": axial, "inflow": inflow}
+    names = {"clearances": "radial gap", "outflow": "axial exit", "inflow": "axial inlet"}
+    if all(speed is not None for speed in speeds.values()):
+        return []
+    slices = mesh.setup.model.slice_count
+    found = [bands(mesh.gas, space.table, on_grids(mesh, space, limit, slices)) for space in mesh.spaces]
+    verdict, notices = decide(found, slices, slices), []
+    for flow, speed in speeds.items():
+        if speed is None:
+            message = f"the flow through the {names[flow]} stays below the speed of sound up to {rpm(limit):.6g} rpm"
+            if getattr(verdict, flow) == "doubtful":
+                message = f"doubtful: {message} with {slices} slices, but the band of the result contains sonic flow"
+            notices.append(Notice("beyond_search_limit", message, "search_limit", rank="note"))
+    return notices
 
 
 class _Demand:
     """Distance of a tooth space from choking, as a function of the logarithm of the pinion speed.
 
     `radial` returns ln(p/p_c), where p is the largest pressure and p_c is the pressure at which the radial gap chokes.
-    `axial` returns the logarithm of the exit Mach number. A result of at least 0 means that the gap or the exit chokes.
+    `axial` and `inflow` return the logarithms of the Mach numbers of outflow and inflow at the ends. A result of at
+    least 0 means that the flow chokes there.
     """
 
     def __init__(self, mesh: Mesh, space: Space, slices: int) -> None:
         self._mesh, self._space, self._slices = mesh, space, slices
-        self._excess: dict[float, tuple[float, float]] = {}
+        self._excess: dict[float, tuple[float, float, float]] = {}
 
     def radial(self, log_speed: float) -> float:
-        pressure, _ = self._excess_at(log_speed)
-        return pressure
+        return self.excess(log_speed)[0]
 
     def axial(self, log_speed: float) -> float:
-        _, exit_demand = self._excess_at(log_speed)
-        return exit_demand
+        return self.excess(log_speed)[1]
 
-    def _excess_at(self, log_speed: float) -> tuple[float, float]:
+    def inflow(self, log_speed: float) -> float:
+        return self.excess(log_speed)[2]
+
+    def excess(self, log_speed: float) -> tuple[float, float, float]:
+        """Return the results of `radial`, `axial` and `inflow`."""
         if log_speed not in self._excess:
             gas, limit = self._mesh.gas, CELL_STEP_LIMIT // _SOLVES
             flow = flow_at(self._mesh, self._space, exp(log_speed), self._slices, cell_step_limit=limit)
             pressure = flow.largest_pressure * gas.critical_ratio / gas.pressure
-            self._excess[log_speed] = log(pressure), log(max(flow.exit_demand, 1e-12))
+            demands = (log(max(demand, 1e-12)) for demand in (flow.exit_demand, flow.inflow_demand))
+            self._excess[log_speed] = (log(pressure), *demands)
         return self._excess[log_speed]
 
 
@@ -113,7 +134,7 @@ def _scan(demands: list[_Demand], top: float) -> list[float]:
     `top` is the logarithm of the highest speed. Return the logarithms of all speeds, in ascending order.
     """
     speeds = [top]
-    while any(max(demand.radial(speeds[-1]), demand.axial(speeds[-1])) >= 0.0 for demand in demands):
+    while any(max(demand.excess(speeds[-1])) >= 0.0 for demand in demands):
         if len(speeds) > _STEPS_DOWN:
             _refuse_sealed(exp(speeds[-1]))
         speeds.append(speeds[-1] - _STEP_DOWN)
@@ -159,7 +180,7 @@ def _refine(excess: Excess, root: float, top: float) -> float | None:
 
 
 def _curves(mesh: Mesh, demands: list[_Demand], scan: list[float]) -> ChokingCurves:
-    """Return peak pressure ratio and exit Mach number at the speeds of the scan.
+    """Return peak pressure ratio and Mach numbers at the speeds of the scan.
 
     Every value is the largest value of all tooth spaces.
     """
@@ -169,4 +190,5 @@ def _curves(mesh: Mesh, demands: list[_Demand], scan: list[float]) -> ChokingCur
             [exp(max(d.radial(speed) for d in demands)) / mesh.gas.critical_ratio for speed in scan]
         ),
         exit_mach=frozen([exp(max(d.axial(speed) for d in demands)) for speed in scan]),
+        inflow_mach=frozen([exp(max(d.inflow(speed) for d in demands)) for speed in scan]),
     )

@@ -9,7 +9,7 @@ import numpy as np
 from solvers.arrays import frozen
 from solvers.errors import InvalidInput
 from solvers.pumping.flow.nozzle import Gas
-from solvers.pumping.flow.space_flow import EndFlow, ExitMasses, SpaceFlow
+from solvers.pumping.flow.space_flow import EndDemand, EndFlow, ExitMasses, SpaceFlow
 from solvers.pumping.inputs import rpm
 from solvers.pumping.space.stroke import StrokeTable
 
@@ -69,6 +69,7 @@ def incompressible(
         raise InvalidInput("incompressible_vacuum", message, "pinion_speed")
     out = gas.density * velocity * discharge * step
     front, radial = out * area, out * gap
+    outwards, inwards = (float(max(0.0, largest)) / gas.sound_speed for largest in (velocity.max(), -velocity.min()))
     return SpaceFlow(
         angle=frozen(0.5 * (table.angle[1:] + table.angle[:-1])),
         position=frozen([0.5 * face_width]),
@@ -84,7 +85,9 @@ def incompressible(
         smallest_pressure=float(min(pressure.min(), gas.pressure)),
         largest_mach=float(np.abs(velocity).max() / gas.sound_speed),
         largest_velocity=float(np.abs(velocity).max()),
-        exit_demand=float(velocity.max() / gas.sound_speed),
+        demand=EndDemand(outwards, outwards, inwards, inwards),
+        exit_demand=outwards,
+        inflow_demand=inwards,
         work=float((gauge * displaced).sum()),
         masses=ExitMasses(
             front=float(front.sum()),

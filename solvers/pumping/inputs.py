@@ -8,6 +8,7 @@ from solvers.quantity import quantity, record
 from solvers.sources import MILIAN
 
 MOLAR_GAS_CONSTANT = 8.314462618  # J/(mol K)
+MOST_SLICES = 1000
 
 
 class Flow(StrEnum):
@@ -158,7 +159,7 @@ class PumpingModel:
         MILIAN,
         default=None,
         ge=1,
-        le=1000,
+        le=MOST_SLICES,
         text="slices or pockets over the face width",
         default_text="100 of gas dynamics, 10 pockets",
         assumed="the paper gives none; peak pressures of gas dynamics are within 0.1 % at 100",

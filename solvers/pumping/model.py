@@ -1,6 +1,6 @@
 """Air and mist pumped by the teeth of high-speed gears (Milian, Distretti, Leoni, Velex, Gear Technology 2004)."""
 
-from math import inf, pi, tan
+from math import pi, tan
 
 import numpy as np
 
@@ -10,13 +10,14 @@ from solvers.notices import Notice
 from solvers.pumping.checks import check_speed
 from solvers.pumping.flow.nozzle import Gas
 from solvers.pumping.flow.space_flow import SpaceFlow
-from solvers.pumping.inputs import Flow, PumpingInputs
+from solvers.pumping.inputs import PumpingInputs
 from solvers.pumping.lead_correction import LeadCorrection, lead_correction
 from solvers.pumping.notices import flow_notices, net_flow_notices, resolution_notices, speed_notices
 from solvers.pumping.pulsation import Pulsation, pulsation
 from solvers.pumping.resolution import Grids, behind_jumps, compressed, net_uncertainty, radial_uncertainty, resolution
 from solvers.pumping.results import (
     Balance,
+    EndOfFace,
     FaceProfile,
     GasField,
     MassFlow,
@@ -28,7 +29,15 @@ from solvers.pumping.results import (
 )
 from solvers.pumping.space.stroke import StrokeTable
 from solvers.pumping.space.tooth_space import normal_backlash
-from solvers.pumping.spaces import Mesh, Space, coarser_flow_at, derived, face_stretches, flow_at, prepare
+from solvers.pumping.spaces import (
+    Mesh,
+    Space,
+    derived,
+    face_stretches,
+    finest_slices,
+    prepare,
+)
+from solvers.pumping.verdict import Bands, bands, decide, on_grids
 
 LEAST_HELIX = 1e-100  # rad; at a smaller angle the speed of the meshing point along the face overflows
 
@@ -63,7 +72,7 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
     check_speed(speed)
     frequency = mesh.pair.pinion.teeth * speed / (2 * pi)
 
-    spaces = [_on_grids(mesh, space, speed, slices) for space in mesh.spaces]
+    spaces = [on_grids(mesh, space, speed, slices) for space in mesh.spaces]
     flows = [grids.flow for grids in spaces]
     results = [
         _spaces_result(mesh.gas, space, grids, frequency) for space, grids in zip(mesh.spaces, spaces, strict=True)
@@ -71,6 +80,13 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
     of_gear = {space.of_pinion: result for space, result in zip(mesh.spaces, results, strict=True)}
     correction = _pinion_correction(mesh, of_gear.get(True))
     resolved = resolution(mesh.gas, spaces)
+    finest = finest_slices(mesh, speed, slices)
+    found = [bands(mesh.gas, space.table, grids) for space, grids in zip(mesh.spaces, spaces, strict=True)]
+
+    def refined(gear: int, number: int) -> Bands:
+        space = mesh.spaces[gear]
+        return bands(mesh.gas, space.table, on_grids(mesh, space, speed, number))
+
     total = _totals(mesh, speed, frequency, sum(result.pumping_power for result in results))
     return PumpingResult(
         geometry=_geometry(mesh),
@@ -80,14 +96,15 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
         lead_correction=correction,
         pulsation=_pulsation(mesh, flows, speed, frequency),
         resolution=behind_jumps(resolved, mesh.gas, flows, [space.table.jump[0] for space in mesh.spaces]),
+        choking=decide(found, slices, finest, refined),
         slices=sum(part.cells for part in face_stretches(inputs.setup, slices)),
         derived=derived(mesh),
         warnings=(
             *mesh.notices,
             *speed_notices(mesh.pair, mesh.gas, speed),
             *_flow_notices(inputs, results),
-            *resolution_notices(inputs.setup.model.flow, resolved),
-            *net_flow_notices(inputs.setup.model.flow, [result.mass_flow for result in results]),
+            *resolution_notices(inputs.setup.model.flow, resolved, slices, finest),
+            *net_flow_notices(inputs.setup.model.flow, [result.mass_flow for result in results], slices, finest),
             *_missing(results[0], total, correction),
         ),
     )
@@ -113,26 +130,6 @@ def _geometry(mesh: Mesh) -> MeshGeometry:
     )
 
 
-def _on_grids(mesh: Mesh, space: Space, speed: float, slices: int) -> Grids:
-    """Compute one stroke on three grids: at the given resolution, and at half and a quarter of this resolution.
-
-    The difference between the grids shows the error of the result.
-    """
-    flow = flow_at(mesh, space, speed, slices)  # this call comes first, because it refuses a march that is too long
-    half, quarter = (coarser_flow_at(mesh, space, speed, slices, times) for times in (2, 4))
-    return Grids(flow, half, quarter, _lead(mesh, space, speed))
-
-
-def _lead(mesh: Mesh, space: Space, speed: float) -> float:
-    """Compute `Grids.lead`: |c - v|/v, where c is the ambient speed of sound, and v the speed of the meshing line.
-
-    For flow models without waves, return infinity.
-    """
-    if mesh.setup.model.flow is not Flow.GAS_DYNAMICS:
-        return inf
-    return abs(mesh.gas.sound_speed * space.lag / (speed * space.speed_ratio) - 1.0)
-
-
 def _spaces_result(gas: Gas, space: Space, grids: Grids, frequency: float) -> SpacesResult:
     """Convert one stroke to results: mass flow, power, and values relative to the ambient state."""
     flow = grids.flow
@@ -151,6 +148,9 @@ def _spaces_result(gas: Gas, space: Space, grids: Grids, frequency: float) -> Sp
         peak_axial_velocity=flow.largest_velocity,
         radial_choked=flow.largest_pressure * gas.critical_ratio > gas.pressure,
         axial_choked=flow.exit_demand > 1.0,
+        inflow_choked=flow.inflow_demand > 1.0,
+        front_end=EndOfFace(flow.demand.front_out, flow.demand.front_in, flow.demand.front_in > 1.0),
+        rear_end=EndOfFace(flow.demand.rear_out, flow.demand.rear_in, flow.demand.rear_in > 1.0),
         max_temperature_rise=largest_rise,
         hottest_position=hottest,
         pumping_power=frequency * flow.work,

@@ -95,10 +95,11 @@ def flow_notices(flow: Flow, largest_mach: float, largest_gauge_pressure: float)
     return []
 
 
-def net_flow_notices(model: Flow, flows: list[MassFlow]) -> list[Notice]:
+def net_flow_notices(model: Flow, flows: list[MassFlow], slices: int, finest: int) -> list[Notice]:
     """Return a warning about the most uncertain net flow out of an end, if its uncertainty exceeds `NET_UNCERTAINTY`.
 
-    The net flow is uncertain if it is a small difference between outflow and inflow.
+    The net flow is uncertain if it is a small difference between outflow and inflow. `finest` is the largest number of
+    slices that the speed allows.
     """
     shares = [
         (flow.net_uncertainty / abs(net) if net else inf, net, flow)
@@ -113,13 +114,16 @@ def net_flow_notices(model: Flow, flows: list[MassFlow]) -> list[Notice]:
         f"a net flow of {1e3 * net:.3g} g/s out of an end is uncertain by {1e3 * flow.net_uncertainty:.2g} g/s, "
         "because this net flow is a small difference between outflow and inflow"
     )
-    if model is Flow.GAS_DYNAMICS:
-        message += "; use more slices"
+    if model is Flow.GAS_DYNAMICS and slices < finest:
+        message += f"; use more slices (this speed allows {finest})"
     return [Notice("net_flow_uncertain", message, "slices")]
 
 
-def resolution_notices(flow: Flow, uncertain: Resolution) -> list[Notice]:
-    """Return a warning that names the results of gas dynamics that are uncertain with this number of slices."""
+def resolution_notices(flow: Flow, uncertain: Resolution, slices: int, finest: int) -> list[Notice]:
+    """Return a warning that names the results of gas dynamics that are uncertain with this number of slices.
+
+    `finest` is the largest number of slices that the speed allows.
+    """
     shares = ", ".join(
         f"{name} by {100 * share:.2g} %"
         for name, share in (
@@ -134,13 +138,8 @@ def resolution_notices(flow: Flow, uncertain: Resolution) -> list[Notice]:
     )
     if flow is not Flow.GAS_DYNAMICS or not shares:
         return []
-    return [
-        Notice(
-            "not_resolved",
-            f"too few slices; the following results are uncertain: {shares}. Use more slices",
-            "slices",
-        )
-    ]
+    more = f"use more slices (this speed allows {finest})" if slices < finest else "this speed allows no more slices"
+    return [Notice("not_resolved", f"not resolved by {slices} slices: {shares}; {more}", "slices")]
 
 
 def speed_notices(pair: GearPair, gas: Gas, pinion_speed: float) -> list[Notice]:

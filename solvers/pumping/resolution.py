@@ -79,10 +79,8 @@ def resolution(gas: Gas, spaces: list[Grids]) -> Resolution:
     -----
     Eq. P15.
     """
-    shares = [_shares(gas, grids) for grids in spaces]
+    shares = [uncertainties(gas, grids) for grids in spaces]
     uncertain = {name: max(of_space[name] for of_space in shares) for name in shares[0]}
-    if max(uncertain["peak_pressure"], uncertain["min_pressure"]) >= LOST:
-        uncertain = {name: max(share, LOST) for name, share in uncertain.items()}
     return Resolution(
         peak_pressure=uncertain["peak_pressure"],
         min_pressure=uncertain["min_pressure"],
@@ -148,10 +146,21 @@ def radial_uncertainty(grids: Grids, jumped: float) -> float:
     return max(radial, net_uncertainty(grids, jumped))
 
 
+def uncertainties(gas: Gas, grids: Grids) -> dict[str, float]:
+    """Estimate the relative uncertainties of the results of one tooth space.
+
+    If a pressure is entirely uncertain, so is every result.
+    """
+    shares = _shares(gas, grids)
+    lost = max(shares["peak_pressure"], shares["min_pressure"]) >= LOST
+    return {name: max(share, LOST) for name, share in shares.items()} if lost else shares
+
+
 def _shares(gas: Gas, grids: Grids) -> dict[str, float]:
-    """Estimate the relative uncertainties of the results of one tooth space."""
     fine, half, quarter = (_summary(gas, flow) for flow in (grids.flow, grids.halved, grids.quartered))
     shares = {name: _relative(value, half[name], quarter[name]) for name, value in fine.items()}
+    for name in ("outflow_mach", "inflow_mach"):
+        shares[name] *= OF_EXTREMES
     for name, reach in _reaches(gas, grids).items():
         shares[name] = max(OF_EXTREMES * shares[name], _of(reach - fine[name], fine[name]))
     apart = _side_by_side(gas, grids.flow, grids.halved)
@@ -182,6 +191,8 @@ def _summary(gas: Gas, flow: SpaceFlow) -> dict[str, float]:
         "peak_pressure": flow.largest_pressure - gas.pressure,
         "min_pressure": gas.pressure - flow.smallest_pressure,
         "axial_mach": flow.largest_mach,
+        "outflow_mach": flow.exit_demand,
+        "inflow_mach": flow.inflow_demand,
         "pumping_power": flow.work,
         "front_out": _sum(flow.ends.front),
         "front_in": _sum(-flow.ends.front),

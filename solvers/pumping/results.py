@@ -1,5 +1,7 @@
 """Results of a pumping calculation, in SI."""
 
+from typing import Literal
+
 from solvers.arrays import FloatArray
 from solvers.gears.diameters import Diameters
 from solvers.notices import Notice
@@ -8,6 +10,8 @@ from solvers.pumping.pulsation import Pulsation
 from solvers.pumping.space.stroke import StrokeTable
 from solvers.quantity import quantity, record
 from solvers.sources import MILIAN
+
+ChokingWord = Literal["choked", "not choked", "doubtful"]
 
 
 @record
@@ -167,6 +171,20 @@ class GasField:
 
 
 @record
+class EndOfFace:
+    """Largest Mach numbers that the pressures ask for at an end of the face; above 1, the flow there is choked.
+
+    Outflow would expand to the ambient pressure, and the air that fills the space to the pressure in the space.
+    """
+
+    outflow_mach: float = quantity("Mach number of the outflow", "Ma_out", text="above 1: choked")
+    inflow_mach: float = quantity(
+        "Mach number of the inflow", "Ma_in", text="of the air that fills the tooth spaces; above 1: choked"
+    )
+    inflow_choked: bool = quantity("choking of the inflow", text="whether the air that fills the spaces becomes sonic")
+
+
+@record
 class SpacesResult:
     """Results of the spaces of one gear: power [W], work per space and stroke [J], mass flow [kg/s], temperatures [K].
 
@@ -186,7 +204,12 @@ class SpacesResult:
     radial_choked: bool = quantity(
         "radial choking", None, f"{MILIAN}, Eq. 7", text="whether radial clearances become sonic"
     )
-    axial_choked: bool = quantity("axial choking", None, f"{MILIAN}, Eq. 7", text="whether an end becomes sonic")
+    axial_choked: bool = quantity(
+        "axial choking", None, f"{MILIAN}, Eq. 7", text="whether the outflow at an end becomes sonic"
+    )
+    inflow_choked: bool = quantity("choking of the inflow", text="whether the inflow at an end becomes sonic")
+    front_end: EndOfFace = quantity("front end", text="the end that meshes first")
+    rear_end: EndOfFace = quantity("rear end", text="the end that meshes last")
     max_temperature_rise: float | None = quantity(
         "largest temperature rise", "Δθ_0,max", MILIAN, unit="k", text="largest of the profile"
     )
@@ -238,6 +261,26 @@ class Derived:
 
 
 @record
+class Choking:
+    """Whether the flow becomes sonic, decided by refinement, over the spaces of all gears asked for.
+
+    A Mach number is given with its relative uncertainty; the verdict is "doubtful" exactly if this band contains 1. The
+    slices are doubled until no verdict is doubtful, or until the largest number that the speed allows is reached.
+    """
+
+    outflow: ChokingWord = quantity("choking of the outflow", text="at the ends of the face")
+    inflow: ChokingWord = quantity("choking of the inflow", text="of the air that fills the spaces at the ends")
+    clearances: ChokingWord = quantity("choking of the radial clearances")
+    outflow_mach: float = quantity("Mach number of the outflow", "Ma_out", text="above 1: choked")
+    outflow_uncertainty: float = quantity("uncertainty of the outflow's Mach number", text="relative")
+    inflow_mach: float = quantity("Mach number of the inflow", "Ma_in", text="above 1: choked")
+    inflow_uncertainty: float = quantity("uncertainty of the inflow's Mach number", text="relative")
+    slices: int = quantity(
+        "slices of the verdict", "N_v", text="as many as the verdict took; the numbers are of `slices`"
+    )
+
+
+@record
 class PumpingResult:
     """Results of a pumping calculation at one operating point.
 
@@ -256,6 +299,7 @@ class PumpingResult:
     resolution: Resolution = quantity(
         "resolution", text="relative uncertainties, after the grid convergence index of first order"
     )
+    choking: Choking = quantity("choking", text="whether the flow becomes sonic, decided by refinement")
     slices: int = quantity("slices in force", "N", text="slices or pockets in force, grooves left out")
     derived: Derived = quantity("distance and slices used")
     warnings: tuple[Notice, ...]
@@ -263,7 +307,7 @@ class PumpingResult:
 
 @record
 class ChokingCurves:
-    """Curves of the coarse scan over the pinion speed [rad/s]: peak pressure ratio and exit Mach number, (speeds,)."""
+    """Curves of the coarse scan over the pinion speed [rad/s]: peak pressure ratio and Mach numbers, (speeds,)."""
 
     pinion_speed: FloatArray = quantity("pinion speed scanned", "n_1", unit="rpm")
     peak_pressure_ratio: FloatArray = quantity(
@@ -273,6 +317,12 @@ class ChokingCurves:
         "exit Mach number",
         "Ma_e",
         text="Mach number that the ambient pressure asks for at the ends; above 1: choked",
+        axis="pinion_speed",
+    )
+    inflow_mach: FloatArray = quantity(
+        "inflow Mach number",
+        "Ma_in",
+        text="Mach number of the air that fills the spaces; above 1: choked",
         axis="pinion_speed",
     )
 
@@ -293,7 +343,13 @@ class ChokingSpeeds:
         "n_ax",
         f"{MILIAN}, Eq. 7",
         unit="rpm",
-        text="an end becomes sonic; null beyond the search limit",
+        text="the outflow at an end becomes sonic; null beyond the search limit",
+    )
+    inflow_choking_speed: float | None = quantity(
+        "inflow choking speed",
+        "n_in",
+        unit="rpm",
+        text="the air that fills the spaces becomes sonic at an end; null beyond the search limit",
     )
     curves: ChokingCurves = quantity("scan of the speeds", detail="curves")
     derived: Derived = quantity("distance and slices used")

@@ -1,7 +1,7 @@
 """Tooth spaces prepared for all speeds, and the flow through them at one speed."""
 
 from dataclasses import dataclass
-from math import tan
+from math import sqrt, tan
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from solvers.pumping.flow.nozzle import Gas, gas
 from solvers.pumping.flow.space_flow import SpaceFlow
 from solvers.pumping.gas.gas_dynamics import LEAST_SLICES, cell_steps, gas_dynamics
 from solvers.pumping.incompressible import incompressible
-from solvers.pumping.inputs import Flow, PumpingSetup, Spaces
+from solvers.pumping.inputs import MOST_SLICES, Flow, PumpingSetup, Spaces
 from solvers.pumping.notices import jump_notices, setup_notices
 from solvers.pumping.results import Derived
 from solvers.pumping.space.face import Stretch, stretches
@@ -161,12 +161,28 @@ def _gas_ducts(mesh: Mesh, space: Space, pinion_speed: float, parts: list[Stretc
     return [(part, space_duct(mesh, space, pinion_speed, part, transport=transport)) for part in parts]
 
 
-def _check_cost(mesh: Mesh, pinion_speed: float, parts: list[Stretch], limit: int) -> None:
-    """Refuse a speed at which gas dynamics would take too many steps in the tooth spaces of one of the gears."""
-    largest_cost = max(
+def finest_slices(mesh: Mesh, pinion_speed: float, slices: int) -> int:
+    """Return the largest number of slices that the speed allows, at least `slices`.
+
+    The cost grows with the square of the number of slices. In the pocket chain and in the incompressible model, the
+    number is part of the model and stays.
+    """
+    if mesh.setup.model.flow is not Flow.GAS_DYNAMICS:
+        return slices
+    cost = _largest_cost(mesh, pinion_speed, face_stretches(mesh.setup, slices))
+    return max(slices, min(MOST_SLICES, int(slices * sqrt(CELL_STEP_LIMIT / cost))))
+
+
+def _largest_cost(mesh: Mesh, pinion_speed: float, parts: list[Stretch]) -> float:
+    return max(
         cell_steps(mesh.gas, _gas_ducts(mesh, space, pinion_speed, parts), _angles(mesh, space))
         for space in mesh.spaces
     )
+
+
+def _check_cost(mesh: Mesh, pinion_speed: float, parts: list[Stretch], limit: int) -> None:
+    """Refuse a speed at which gas dynamics would take too many steps in the tooth spaces of one of the gears."""
+    largest_cost = _largest_cost(mesh, pinion_speed, parts)
     if largest_cost > limit:
         refuse_cost(pinion_speed, parts, largest_cost / limit)
 

@@ -1,4 +1,4 @@
-"""Peak pressure and exit Mach number over the pinion speed.
+"""Peak pressure and the Mach numbers of outflow and inflow at the ends over the pinion speed.
 
 The total number of steps is limited for all speeds together. Low speeds need more steps than high speeds. If the steps
 do not suffice at a low speed, gas dynamics uses fewer slices.
@@ -18,18 +18,18 @@ _COARSENINGS = {Flow.GAS_DYNAMICS: (1, 2, 4)}
 
 
 def speed_scan(setup: PumpingSetup, speeds: FloatArray) -> ChokingCurves:
-    """Return the largest pressure ratio and exit Mach number of the selected spaces at each pinion speed [rad/s].
+    """Return the largest pressure ratio and Mach numbers of the selected spaces at each pinion speed [rad/s].
 
-    Both values are NaN at a speed without a solution. Raises InvalidInput, with the codes of `prepare`, if `prepare`
+    All values are NaN at a speed without a solution. Raises InvalidInput, with the codes of `prepare`, if `prepare`
     refuses the setup.
     """
     mesh, limit = prepare(setup), CELL_STEP_LIMIT // speeds.size
-    pressure, demand = np.array([_point(mesh, float(speed), limit) for speed in speeds]).T
-    return ChokingCurves(pinion_speed=frozen(speeds), peak_pressure_ratio=frozen(pressure), exit_mach=frozen(demand))
+    pressure, outflow, inflow = np.array([_point(mesh, float(speed), limit) for speed in speeds]).T
+    return ChokingCurves(frozen(speeds), frozen(pressure), exit_mach=frozen(outflow), inflow_mach=frozen(inflow))
 
 
-def _point(mesh: Mesh, speed: float, limit: int) -> tuple[float, float]:
-    """Compute the peak pressure ratio and the exit Mach number at one speed."""
+def _point(mesh: Mesh, speed: float, limit: int) -> tuple[float, float, float]:
+    """Compute the peak pressure ratio and the Mach numbers of outflow and inflow at one speed."""
     for coarsening in _COARSENINGS.get(mesh.setup.model.flow, (1,)):
         slices = mesh.setup.model.slice_count // coarsening
         try:
@@ -39,5 +39,5 @@ def _point(mesh: Mesh, speed: float, limit: int) -> tuple[float, float]:
         except NoSolution:
             break
         pressure = max(flow.largest_pressure for flow in flows) / mesh.gas.pressure
-        return pressure, max(flow.exit_demand for flow in flows)
-    return np.nan, np.nan
+        return pressure, max(flow.exit_demand for flow in flows), max(flow.inflow_demand for flow in flows)
+    return np.nan, np.nan, np.nan

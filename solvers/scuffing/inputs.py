@@ -406,7 +406,17 @@ class ScuffingTest:
             "which the oil failed if you know it"
         ),
     )
-    test: Literal["A/8.3/90"] = quantity("scuffing test", None, FZG, kw_only=True, default="A/8.3/90")
+    test: Literal["A/8.3/90"] = quantity(
+        "scuffing test",
+        None,
+        FZG,
+        kw_only=True,
+        default="A/8.3/90",
+        if_above=(
+            "load stages of faster or hotter tests, such as A/16.6/90, mean other temperatures; enter the stage of "
+            "A/8.3/90, or the scuffing temperature itself"
+        ),
+    )
     structure_factor: float = quantity(
         "structural factor",
         "X_W",
@@ -552,6 +562,10 @@ class MicropittingCheck:
         ge=5,
         le=10,
         text="load stage at which the oil fails the micropitting test",
+        if_above=(
+            '"above 10" on a data sheet means that the oil passed the last stage; enter 10, which is on the safe side, '
+            "or the permissible specific film thickness instead"
+        ),
         default_text="no safety, unless a permissible ratio is given",
         assumed="neither failure load stage nor permissible ratio is given: films without a safety",
     )

@@ -1,10 +1,10 @@
 """Scuffing of a loaded pair over the whole flank: contact temperature and film thickness, compared with limits.
 
 The closed forms are Blok's flash temperature (Eq. 25) and Dowson and Higginson's film (Eq. 27). The thermal EHL
-solution is computed along two lines: the paper's feature line, and the profile line through the hottest point.
+solution is computed at the places that decide, along the paper's feature line, and along the profile line through the
+hottest place.
 """
 
-from collections.abc import Sequence
 from dataclasses import replace
 from functools import partial
 from typing import NamedTuple
@@ -45,11 +45,13 @@ from solvers.scuffing.thermal.flank import (
     formula_film,
 )
 from solvers.scuffing.thermal.misalignment import misalignment_left_out
+from solvers.scuffing.thermal.places import Places, solve_places
 from solvers.scuffing.thermal.practice import scuffing_risk
 from solvers.scuffing.thermal.temperatures import in_force, oil_notices
-from solvers.scuffing.thermal.thermal_path import thermal_paths
+from solvers.scuffing.thermal.thermal_path import SolvedLine, solve_line, solver_notices
 from solvers.scuffing.thermal.verdict import (
     CheckedLine,
+    SolvedContacts,
     hotter_surface,
     largest_flash,
     path_notices,
@@ -57,10 +59,6 @@ from solvers.scuffing.thermal.verdict import (
     unknown_points,
     without_thermal,
 )
-
-# The profile line through the hottest point is checked if the flash temperature at this point exceeds the largest flash
-# temperature on the feature line by more than this share.
-AS_HOT = 0.02
 
 
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
@@ -103,29 +101,40 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     hottest = find_hottest(given, distribution, flash_map) if whole else None
     film_at = formula_film(inputs)
     thinnest = find_thinnest(given, distribution, flash_map, film_at) if whole else None
-    lines, beside = _lines(inputs, distribution, hottest, film_at)
-    if thinnest is not None and beside is not None:
-        thinnest = _or_along(distribution, beside, thinnest)
-    warnings, unknown = (*distribution.warnings, *oil_notices(inputs, distribution.path_of_contact, ran)), 0
+    warnings = (*distribution.warnings, *oil_notices(inputs, distribution.path_of_contact, ran))
+    places: Places | None = None
+    solved: list[SolvedLine] = []
+    thermal = inputs.lubrication == "thermal_ehl" and bulk is not None
+    if thermal and thinnest is not None:
+        surfaces = partial(_surfaces, inputs.temperatures)
+        places = solve_places(inputs, distribution, flash_map, film_at, (hottest, thinnest), surfaces)
+    lines = _lines(inputs, distribution, (places and places.hottest()) or hottest, film_at)
     paths = [_closed_form_path(inputs, line) for line in lines]
-    if inputs.lubrication == "thermal_ehl" and bulk is not None:
-        thermal, notices = thermal_paths(inputs, [line.points for line in lines])
-        paths = [_with_thermal(inputs, *both) for both in zip(paths, thermal, strict=True)]
-        warnings += notices
-        unknown = unknown_points(thermal, [_surfaces(inputs.temperatures, line) for line in lines])
-    checked = [CheckedLine(path, line.face) for path, line in zip(paths, lines, strict=True)]
+    if thermal:
+        solved = [solve_line(inputs, line.points) for line in lines]
+        paths = [_with_thermal(inputs, path, line.path) for path, line in zip(paths, solved, strict=True)]
+        warnings += solver_notices(solved if places is None else [places.solved, *solved])
     length = distribution.path_of_contact.length
-    flash, film = largest_flash(checked, hottest, length), thinnest_film(checked, thinnest, length, given)
+    deciding = None
+    if places is not None:
+        deciding = SolvedContacts(places.x / length, places.y, places.solved.path)
+    elif solved:
+        deciding = SolvedContacts(lines[0].psi, lines[0].face, solved[0].path)
+    unknown = 0 if deciding is None else unknown_points(deciding.path, _surfaces(inputs.temperatures, deciding.face))
+    feature = CheckedLine(paths[0], lines[0].face)
+    flash = largest_flash(feature, hottest, deciding, length)
+    film = thinnest_film(feature, thinnest, deciding, length, given)
     if reaches_base_circle(distribution.balance.survey):
         flash, film = Flash(None, None), Film()
     elif unknown:
         flash, film = without_thermal(flash, film)
     if given.friction_coefficient is None and np.isnan(flash_map.flash).any():
         flash = Flash(None, None)  # otherwise the flash temperature of a line without contact would be 0
+    status = [outcome for path in paths for outcome in path.status] + list(places.solved.path.status if places else ())
     flash = replace(flash, friction_coefficient=inputs.distribution.friction_coefficient)
     micropitting = check_micropitting(inputs, distribution, flash_map, film.thermal_ehl_min)
     paths = [_with_film_ratio(micropitting, *both) for both in zip(paths, lines, strict=True)]
-    contact = None if bulk is None else _contact_temperature(inputs.temperatures, bulk, flash, checked)
+    contact = None if bulk is None else _contact_temperature(inputs.temperatures, bulk, flash, deciding)
     safety = None if contact is None else _safety(inputs.temperatures, contact, flash)
     if heat is not None:
         heat, safety = _with_band(inputs.temperatures, rule, heat, flash, safety)
@@ -147,8 +156,8 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         + misalignment_left_out(asked, distribution, safety)
         + (() if heat is None else heat.warnings)
         + micropitting.warnings
-        + path_notices(distribution, paths, contact, safety, unknown),
-        unsolved_points=sum(path.status.count(status) for path in paths for status in ("no_solution", "refused")),
+        + path_notices(distribution, paths[0], status, contact, safety, unknown),
+        unsolved_points=status.count("no_solution") + status.count("refused"),
     )
 
 
@@ -181,15 +190,11 @@ def _line_at(
 
 def _lines(
     inputs: ScuffingInputs, distribution: LoadDistribution, hottest: Peak | None, film_at: ContactFunction
-) -> tuple[list[_Line], _Line | None]:
-    """Return the list of lines to check, and the profile line through the hottest point.
-
-    The list contains the feature line. It also contains the profile line if the profile line is clearly hotter than the
-    feature line (`AS_HOT`). The second result is the profile line, even if the list does not contain it; the second
-    result is None if `hottest` is None.
+) -> list[_Line]:
+    """Return the feature line and, if there is a hottest place, the profile line through it.
 
     Points are added to the equidistant points of a line, so that the extremes do not depend on the number of points. On
-    the profile line, the hottest point is added. On the feature line, up to three points are added: the hottest point,
+    the profile line, the hottest place is added. On the feature line, up to three points are added: the hottest point,
     the point with the thinnest film (Dowson and Higginson), and a loaded point that is too near a base circle.
     """
     line_at = partial(_line_at, inputs.distribution, distribution, film_at)
@@ -203,38 +208,19 @@ def _lines(
     if survey.points.undefined.any():
         added.append(survey.psi[np.argmax(survey.points.undefined)])
     feature = line_at(np.unique(np.append(even, added)))
-    if hottest is None:
-        return [feature], None
-    on_line = int(np.argmax(survey.flash))
-    hotter = hottest.value > (1.0 + AS_HOT) * survey.flash[on_line]
-    psi, face = hottest.x / distribution.path_of_contact.length, hottest.y
-    if survey.flash[on_line] > hottest.value:
-        psi, face = survey.psi[on_line], float(survey.face[on_line])
-    profile = line_at(np.unique(np.append(even, psi)), face)
-    return [feature, profile] if hotter else [feature], profile
+    if hottest is None or hottest.value == 0.0:
+        return [feature]
+    psi = hottest.x / distribution.path_of_contact.length
+    return [feature, line_at(np.unique(np.append(even, psi)), hottest.y)]
 
 
-def _or_along(distribution: LoadDistribution, line: _Line, thinnest: Peak) -> Peak:
-    """Return `thinnest`, or the thinnest film on the profile line `line` if this film is thinner.
-
-    Both films are computed by the formula of Dowson and Higginson. The function is also called if the profile line is
-    not checked. Otherwise a spur pair and its mirror image could have different thinnest films, because the profile
-    line may be checked in only one of the two pairs.
-    """
-    if np.isnan(line.film).all():
-        return thinnest
-    k = int(np.nanargmin(line.film))
-    along = Peak(float(line.film[k]), float(line.psi[k]) * distribution.path_of_contact.length, float(line.face[k]))
-    return min(thinnest, along, key=lambda peak: peak.value)
-
-
-def _surfaces(temperatures: Temperatures, line: _Line) -> FloatArray:
-    """Return the bulk temperatures [K] at the points of a line; row 0 is the pinion, and row 1 is the wheel."""
-    return np.broadcast_to(np.array(temperatures.surfaces)[:, None], (2, line.face.size))
+def _surfaces(temperatures: Temperatures, face: FloatArray) -> FloatArray:
+    """Return the bulk temperatures [K] at points of the face; row 0 is the pinion, and row 1 is the wheel."""
+    return np.broadcast_to(np.array(temperatures.surfaces)[:, None], (2, face.size))
 
 
 def _contact_temperature(
-    temperatures: Temperatures, bulk: float, flash: Flash, lines: Sequence[CheckedLine]
+    temperatures: Temperatures, bulk: float, flash: Flash, deciding: SolvedContacts | None
 ) -> ContactTemperature:
     """Return the largest contact temperatures [K], which are sums of bulk and flash temperature.
 
@@ -243,10 +229,8 @@ def _contact_temperature(
     temperature of the same gear.
     """
     thermal = None
-    if flash.thermal_ehl_max is not None:
-        surfaces = np.array(temperatures.surfaces)[:, None]
-        paths = [line.path.thermal for line in lines if line.path.thermal is not None]
-        thermal = float(np.nanmax(np.concatenate([hotter_surface(path, surfaces) for path in paths])))
+    if deciding is not None and flash.thermal_ehl_max is not None:
+        thermal = float(np.nanmax(hotter_surface(deciding.path, _surfaces(temperatures, deciding.face))))
     return ContactTemperature(
         bulk=bulk, blok_max=None if flash.blok_max is None else bulk + flash.blok_max, thermal_ehl_max=thermal
     )

@@ -66,7 +66,7 @@ class Flash:
         "Δθ_fl",
         f"{XUE}, Fig. 22",
         unit="k",
-        text="on the lines that are solved; null in closed form",
+        text="at the places of the flank that decide; null in closed form",
         default=None,
     )
     thermal_ehl_at_psi: float | None = quantity(
@@ -167,8 +167,8 @@ class Film:
 
     All values are None if no point is loaded, or if the loaded path reaches a base circle. `dowson_higginson_min` is
     the thinnest film over the flank by the formula of Dowson and Higginson. `thermal_ehl_min` is the thinnest film by
-    thermal EHL on the solved lines. If an unsolved point may have the thinnest film, all values except
-    `dowson_higginson_min` are None.
+    thermal EHL at the places of the flank that decide. If an unsolved place may have the thinnest film, all values
+    except `dowson_higginson_min` are None.
 
     Place, ratio and regime belong to one of the two films. If `thermal_ehl_min` is stated, they belong to
     `thermal_ehl_min`, even if `dowson_higginson_min` is thinner. Otherwise they belong to `dowson_higginson_min`.
@@ -305,10 +305,9 @@ class ThermalPath:
 class ScuffingPath:
     """Results along a line from A to E: Blok's flash temperature [K], film [m] and ratio of the film to the roughness.
 
-    The feature line is the diagonal y = psi b; the profile line lies at the face position of the hottest point. The
-    points of a line are equidistant, except for a few added points. On both lines, the point with the largest flash
-    temperature by Blok is added. On the feature line, the point with the thinnest film by Dowson and Higginson is also
-    added.
+    The feature line is the diagonal y = psi b; the profile line lies at the face position of the hottest place. The
+    points of a line are equidistant, except for a few added points: on the feature line the points with the largest
+    flash temperature by Blok and with the thinnest film by Dowson and Higginson, on the profile line the hottest place.
 
     A point without load or motion has the status "unloaded"; its film and its ratio are NaN, and its flash temperature
     by Blok is 0. A loaded point at which the reduced radius vanishes has the status "refused"; all its values are NaN.
@@ -412,7 +411,7 @@ class Scuffing:
     path: ScuffingPath = quantity("scuffing check along the feature line", detail="curves")
     hottest_path: ScuffingPath | None = quantity(
         "scuffing check along the hottest profile",
-        text="at `flash.blok_at_face_mm`; null where the feature line is as hot to 2 %",
+        text="at `flash.thermal_ehl_at_face_mm`, in closed form at `flash.blok_at_face_mm`; null without load",
         detail="curves",
     )
     micropitting: Micropitting | None = quantity(
@@ -433,7 +432,9 @@ class Scuffing:
     )
     derived: ScuffingDerived = quantity("load, lengths and oil used")
     warnings: tuple[Notice, ...]
-    unsolved_points: int = quantity("unsolved points", text="points of the path without a solution or refused")
+    unsolved_points: int = quantity(
+        "unsolved points", text="contacts of lines and decisive places without a solution or refused"
+    )
 
     @property
     @computed("over the flank", detail="fields")

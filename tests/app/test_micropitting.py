@@ -40,7 +40,8 @@ def fields(found: dict[str, Any]) -> set[str]:
     ("stage", "message"),
     [
         (4, "failure_load_stage is 4; permissible: 5 to 10"),
-        (11, "failure_load_stage is 11; permissible: 5 to 10"),
+        (11, 'failure_load_stage is 11; permissible: 5 to 10; "above 10" on a data sheet means that the oil passed'),
+        (">10", 'give a number, not text; "above 10" on a data sheet means that the oil passed'),
         (7.5, "give a whole number"),
         ("8", "give a number, not text: 8 instead of"),
     ],

@@ -247,7 +247,15 @@ def test_from_a_data_sheet_to_a_safety_factor_in_one_request() -> None:
         (
             "/v1/scuffing",
             {"temperatures.scuffing_test": {"fzg_stage": 12, "test": "A10/16.6R/90"}},
-            "test: must be one of A/8.3/90",
+            (
+                "test: must be one of A/8.3/90; load stages of faster or hotter tests, such as A/16.6/90, mean other "
+                "temperatures; enter the stage of A/8.3/90, or the scuffing temperature itself"
+            ),
+        ),
+        (
+            "/v1/scuffing",
+            {"temperatures.oil_c": "0.05-0.1"},
+            'give a number, not the range "0.05-0.1"; for a range enter two values: 0.05 and 0.1',
         ),
     ],
 )

@@ -13,7 +13,8 @@ PUMPING, CHOKING = "/v1/pumping", "/v1/pumping/choking-speed"
 SPACES = {
     "": (
         "stroke peak_pressure_ratio min_pressure_ratio peak_axial_mach peak_axial_velocity_m_per_s radial_choked "
-        "axial_choked max_temperature_rise_k hottest_position_mm pumping_power_w work_per_space_j mass_flow_g_per_s "
+        "axial_choked inflow_choked front_end rear_end max_temperature_rise_k hottest_position_mm pumping_power_w "
+        "work_per_space_j mass_flow_g_per_s "
         "balance profile field"
     ),
     ".stroke": "start_deg contact_start_deg contact_end_deg end_deg max_area_mm2 min_area_mm2 curves",
@@ -29,6 +30,7 @@ NAMES = {
         "centre_distance_mm backlash_free_centre_distance_mm working_pressure_angle_deg transverse_contact_ratio "
         "normal_backlash_um undercut"
     ),
+    "choking": ("outflow inflow clearances outflow_mach outflow_uncertainty inflow_mach inflow_uncertainty slices"),
     "total": "pumping_power_w meshing_frequency_hz axial_meshing_speed_m_per_s axial_meshing_mach",
     "lead_correction": "range_um slope_um crown_um curves",
     "lead_correction.curves": "position_mm growth_um radial_only_um correction_um",

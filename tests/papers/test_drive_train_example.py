@@ -25,7 +25,7 @@ from solvers.scuffing.load_balance import line_loads
 from solvers.scuffing.safety import safety_factor
 from solvers.scuffing.thermal.blok import blok_flash
 from solvers.scuffing.thermal.flank import contact_at_points
-from solvers.scuffing.thermal.thermal_path import thermal_paths
+from solvers.scuffing.thermal.thermal_path import solve_line
 from solvers.scuffing.thermal.verdict import hotter_surface
 from tests.support.changes import changed, value_at
 from tests.support.drive_trains import GROUND, NO_EFFECTS, cold, rigid_bearings, running_axis, turbo_gear
@@ -173,7 +173,7 @@ def thermal_safety_of_fifty_points(inputs: DriveTrainInputs, result: DriveTrainR
     assert temperatures.scuffing is not None
     x, y = np.linspace(0.0, plane.path_length, 50), np.full(50, at * plane.face_width)
     contacts = contact_at_points(inputs.mesh.distribution, result.mesh, x, y)
-    (path,), _ = thermal_paths(inputs.mesh, [contacts])
+    path = solve_line(inputs.mesh, contacts).path
     hottest = float(np.nanmax(hotter_surface(path, np.array(temperatures.surfaces)[:, None])))
     safety = safety_factor(temperatures.scuffing, temperatures.oil, hottest)
     assert safety is not None

@@ -18,6 +18,7 @@ from solvers.coupling.results import CouplingResult, Orbit, OrbitResult
 
 TINTS = {"full": Hue.GREEN, "unstable": Hue.PURPLE, "transition": Hue.ORANGE, "boundary": Hue.VERMILLION}
 MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}  # ends of the axes, with room around Pahl's boundaries
+RISING = "1.2"  # the paper prints one value for this area, to which the law of the answer rises from area 1.1
 
 
 def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
@@ -76,7 +77,10 @@ def _areas(x: tuple[float, float], y: tuple[float, float]) -> list[Area]:
         for left, right in pairwise((x[0], *OVERLAP_BOUNDARIES, x[1])):
             regime = friction_regime((left * right) ** 0.5, (bottom * top) ** 0.5)
             name = words.get(regime.name, regime.name.replace(" lubrication", "").replace("predominantly ", ""))
-            texts = (regime.area, name.partition(" or ")[0], _band(regime.friction_min, regime.friction_max))
+            band = _band(regime.friction_min, regime.friction_max)
+            if regime.area == RISING:
+                band = f"μ to {regime.friction_max:g}"
+            texts = (regime.area, name.partition(" or ")[0], band)
             hue = next((hue for word, hue in TINTS.items() if word in regime.name), Hue.SKY)
             areas.append(Area(left, right, bottom, top, "\n".join(texts).strip(), hue))
     return areas

@@ -66,7 +66,8 @@ def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> F
         raise NoFigure(
             "no_oil", "Without an oil and a bulk temperature, the contact temperature cannot be computed", "lubricant"
         )
-    panel = heat_over_flank(face_width(inputs), flank, shown, grid, temperatures.scuffing)
+    friction = result.flash.friction_coefficient
+    panel = heat_over_flank(face_width(inputs), flank, shown, grid, temperatures.scuffing, friction)
     high = float(grid.max())
     safety = result.safety.blok_flank if result.safety is not None else None
     finding = "" if safety is None else f", safety factor S_B = {number(safety)}"

@@ -9,7 +9,7 @@ from app.figures.data import Axis, Figure, Hue, Level, Line, Map, Mark, NoFigure
 from app.figures.declaration import Declaration, present
 from app.figures.models.load_distribution import face, section
 from app.figures.units import MM, RPM, axis, shown
-from app.figures.wording import UNCERTAIN, listed, number, percent, ratio, without_rounding
+from app.figures.wording import UNCERTAIN, number, percent, ratio, without_rounding
 from solvers.pumping.inputs import ChokingInputs, Flow, PumpingInputs, PumpingSetup
 from solvers.pumping.results import ChokingCurves, ChokingSpeeds, FaceProfile, PumpingResult, SpacesResult
 from solvers.pumping.speed_scan import speed_scan
@@ -46,14 +46,11 @@ def mach_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
     """Draw the magnitude of the axial Mach number. A contour shows where the flow is sonic."""
     panels = _maps(inputs, result, "axial_mach", Scale.MAGNITUDE, Level(1.0, "sonic"))
     peak = max(space.peak_axial_mach for _, space in spaces(result))
-    choked = [gear for gear, space in spaces(result) if space.axial_choked]
-    if choked:
-        state = f"an end of the {listed(choked)} is choked"
-    else:
-        state = "supersonic inside, the ends are not choked" if peak > 1.0 else "subsonic throughout"
+    state = f"outflow {result.choking.outflow}, inflow {result.choking.inflow} at the ends"
+    inside = "; supersonic inside" if peak > 1.0 and result.choking.outflow == "not choked" else ""
     uncertain = result.resolution.axial_mach
-    doubt = f"; doubtful: uncertain by {percent(uncertain)}" if uncertain > UNCERTAIN else ""
-    return Figure(f"up to {number(peak)} with the exit faces; {state}{doubt}", panels, beside=True)
+    doubt = f" ± {percent(uncertain)}" if uncertain > UNCERTAIN else ""
+    return Figure(f"up to {number(peak)}{doubt} in slices and at ends; {state}{inside}", panels, beside=True)
 
 
 def temperature_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
@@ -94,16 +91,17 @@ def _maps(inputs: PumpingInputs, result: PumpingResult, name: str, scale: Scale,
 
 
 def scan(inputs: ChokingInputs, result: ChokingSpeeds) -> ChokingCurves:
-    """Compute exit Mach number and peak pressure at evenly spaced speeds around the choking speeds."""
-    speeds = [speed for speed in (result.radial_choking_speed, result.axial_choking_speed) if speed is not None]
+    """Compute Mach numbers and peak pressure at evenly spaced speeds around the choking speeds."""
+    found = (result.radial_choking_speed, result.axial_choking_speed, result.inflow_choking_speed)
+    speeds = [speed for speed in found if speed is not None]
     limit = inputs.search_limit / RPM
-    end = min(BEYOND * max(speeds), limit) if len(speeds) == 2 else limit
+    end = min(BEYOND * max(speeds), limit) if len(speeds) == len(found) else limit
     start = min([LOWEST * end, *(0.8 * speed for speed in speeds)])
     return shown(speed_scan(inputs.setup, np.linspace(start, end, SPEEDS) * RPM))
 
 
 def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves) -> Figure:
-    """Draw peak pressure and exit Mach number over the speed.
+    """Draw peak pressure and the Mach numbers of outflow and inflow over the speed.
 
     Lines show the pressure and the Mach number at which the flow becomes sonic. Further lines show the choking speeds.
 
@@ -115,10 +113,12 @@ def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves)
     critical, mach, peak = critical_ratio(inputs.setup), curves.exit_mach, curves.peak_pressure_ratio
     clearances = [Level(critical, f"clearances sonic, {number(critical)}", limit=True)]
     ends = [Level(1.0, "ends sonic", limit=True)]
+    filling = [Level(1.0, "inflow sonic", limit=True)]
     texts = []
     for name, speed, levels in (
         ("clearances", result.radial_choking_speed, clearances),
-        ("ends", result.axial_choking_speed, ends),
+        ("outflow", result.axial_choking_speed, ends),
+        ("inflow", result.inflow_choking_speed, filling),
     ):
         if speed is None:
             texts.append(f"{name} not up to {number(inputs.search_limit / RPM, '1/min')}")
@@ -127,9 +127,11 @@ def choking(inputs: ChokingInputs, result: ChokingSpeeds, curves: ChokingCurves)
             levels.append(Level(speed, f"{name}: {number(speed, '1/min')}", vertical=True))
     x = axis(curves, "pinion_speed", "pinion speed", magnitude=False)
     demand = axis(curves, "exit_mach", "Mach number that the ambient pressure asks for at the ends")
+    inflow = axis(curves, "inflow_mach", "Mach number of the air that fills the spaces")
     pressure = axis(curves, "peak_pressure_ratio", "peak pressure over ambient pressure")
     panels = [
         parts.curve(x, demand, curves.pinion_speed, mach, levels=ends),
+        parts.curve(x, inflow, curves.pinion_speed, curves.inflow_mach, Hue.SKY, levels=filling),
         parts.curve(x, pressure, curves.pinion_speed, peak, Hue.VERMILLION, levels=clearances),
     ]
     bend = inputs.setup.model.flow is Flow.GAS_DYNAMICS and np.nanmax(mach, initial=0.0) > 1.0

@@ -42,10 +42,10 @@ def temperature_on_flank(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     if contact is not None:
         grid, limit = contact.bulk + grid, result.safety.scuffing if result.safety is not None else None
         shown = axis(contact, "blok_max", "contact temperature")
-    panel = heat_over_flank(width, flank, shown, grid, limit)
+    panel = heat_over_flank(width, flank, shown, grid, limit, result.flash.friction_coefficient)
     lines = [Line("feature line", values([0.0, width / MM]), values([0.0, 1.0]), Hue.SKY)]
-    if result.hottest_path is not None and result.flash.blok_at_face is not None:
-        across = values([result.flash.blok_at_face] * 2)
+    if (face := hottest_face(result)) is not None:
+        across = values([face] * 2)
         lines.append(Line("hottest profile", across, values([0.0, 1.0]), Hue.SKY, Role.REFERENCE))
     if not largest:
         return Figure("no flash temperature", [replace(panel, lines=lines)])
@@ -58,11 +58,18 @@ def temperature_on_flank(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     return Figure(finding, [replace(panel, lines=lines)])
 
 
-def heat_over_flank(width: float, flank: Flank | FlankMaps, shown: Axis, grid: Values, limit: float | None) -> Panel:
+def heat_over_flank(
+    width: float, flank: Flank | FlankMaps, shown: Axis, grid: Values, limit: float | None, friction: float | None
+) -> Panel:
     """Return a map of a temperature over the flank; `width` is the face width [m].
 
-    There is a contour at `limit`, the temperature at which scuffing begins.
+    There is a contour at `limit`, the temperature at which scuffing begins. `friction` is the coefficient of friction.
     """
+    if friction is None:
+        message = (
+            "Give an oil or a coefficient of friction; without one, the flash temperature of the flank is not known"
+        )
+        raise NoFigure("no_friction", message, "friction_coefficient")
     if not np.isfinite(grid).all():
         message = (
             "The loaded path of contact reaches a base circle; the flash temperature is not defined at a base circle"
@@ -123,6 +130,14 @@ def _flashes(path: ScuffingPath) -> list[Line]:
     return [*lines, Line("Blok", path.psi, path.blok_flash, hue, role)]
 
 
+def hottest_face(result: Scuffing) -> float | None:
+    """Return the face position [mm] of the profile line through the hottest place; None if there is no such line."""
+    if result.hottest_path is None:
+        return None
+    flash = result.flash
+    return flash.blok_at_face if flash.thermal_ehl_at_face is None else flash.thermal_ehl_at_face
+
+
 def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
     """Return the evaluated lines of the flank. The keys are the names of the lines.
 
@@ -130,7 +145,7 @@ def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
     """
     if result.hottest_path is None:
         return {"feature line": result.path}
-    across = number(present(result.flash.blok_at_face), "mm")
+    across = number(present(hottest_face(result)), "mm")
     return {"feature line": result.path, f"profile at y = {across}": result.hottest_path}
 
 

@@ -177,11 +177,18 @@ def _record_ends(
         if open_end:
             add_outflow(record, end, taken, mass, energy)
             inside = pockets[low if end == 0 else high - 1].new.pressure
-            asked = (gas.pressure / inside) ** ((1.0 - gas.exponent) / gas.exponent) - 1.0
-            include_demand(record.extremes, np.sqrt(max(2.0 / (gas.exponent - 1.0) * asked, 0.0)))
+            outwards = _asked(gas, inside, gas.pressure)
+            include_demand(record.extremes, outwards if outwards > 0.0 else -_asked(gas, gas.pressure, inside), end)
         else:
             record.mass[0].idle += mass
             record.energy[0].idle += energy
+
+
+@kernel
+def _asked(gas: Gas, upstream: float, downstream: float) -> float:
+    """Compute the Mach number of an expansion from one pressure to another; 0 if there is no expansion."""
+    warming = (downstream / upstream) ** ((1.0 - gas.exponent) / gas.exponent) - 1.0
+    return np.sqrt(max(2.0 / (gas.exponent - 1.0) * warming, 0.0))
 
 
 @kernel

@@ -24,8 +24,8 @@ PROFILE = floats("static", "stagnation", "active", "highest", "lowest", "mach")
 chain, because there the gas moves only between pockets.
 """
 
-EXTREMES = floats("mach", "velocity", "demand")
-"""Largest axial Mach number, largest velocity [m/s], and `exit_demand` of `SpaceFlow` in one stroke."""
+EXTREMES = floats("mach", "velocity", "front_out", "rear_out", "front_in", "rear_in")
+"""Largest axial Mach number, largest velocity [m/s], and the values of `EndDemand` in one stroke."""
 
 BALANCE = floats("begun", "ended", "low_end", "high_end", "walls", "idle")
 """Balance of the mass [kg] or energy [J] of all cells over their strokes.
@@ -125,12 +125,29 @@ def include_speed(extremes: RecordArray, mach: float, velocity: float) -> None:
 
 
 @kernel
-def include_demand(extremes: RecordArray, mach: float) -> None:
-    """Update the stroke's largest demand with a new demand `mach` at one end of the duct.
+def include_demand(extremes: RecordArray, mach: float, end: int) -> None:
+    """Update the stroke's largest demands with a new demand `mach` at one end of the duct, negative for inflow.
 
-    The demand is the Mach number that the gas would reach at this end by an expansion to ambient pressure.
+    `end` is 0 for the low end and 1 for the high end.
     """
-    extremes[0].demand = max(extremes[0].demand, mach)
+    if end == 0:
+        extremes[0].front_out = max(extremes[0].front_out, mach)
+        extremes[0].front_in = max(extremes[0].front_in, -mach)
+    else:
+        extremes[0].rear_out = max(extremes[0].rear_out, mach)
+        extremes[0].rear_in = max(extremes[0].rear_in, -mach)
+
+
+class EndDemand(NamedTuple):
+    """Largest Mach numbers that the pressures ask for at both ends of the face; above 1, the flow there is choked.
+
+    Outflow would expand to the ambient pressure, and inflow to the pressure in the space.
+    """
+
+    front_out: float
+    rear_out: float
+    front_in: float
+    rear_in: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,10 +189,10 @@ class SpaceFlow:
     over the stroke. `peak_pressure` and `lowest_pressure` [Pa] are extremes over the stroke. `peak_mach` is the largest
     Mach number over the stroke within each slice; in the pocket chain, `peak_mach` is 0.
 
-    `exit_demand` is the largest Mach number that the gas would reach by an expansion to ambient pressure at an end of
-    the face. If `exit_demand` is above 1, an end is choked. `work` [J] is the work done on the gas, computed with the
-    pressure minus the ambient pressure. `mass_error` and `energy_error` are relative errors of conservation. All
-    temperatures are None if the flow model gives no temperatures.
+    `demand` has the Mach numbers at the ends of the face. `exit_demand` and `inflow_demand` are the largest Mach
+    numbers of outflow and inflow, at the ends of the face and at grooves. `work` [J] is the work done on the gas,
+    computed with the pressure minus the ambient pressure. `mass_error` and `energy_error` are relative errors of
+    conservation. All temperatures are None if the flow model gives no temperatures.
     """
 
     angle: FloatArray
@@ -192,7 +209,9 @@ class SpaceFlow:
     smallest_pressure: float
     largest_mach: float
     largest_velocity: float
+    demand: EndDemand
     exit_demand: float
+    inflow_demand: float
     work: float
     masses: ExitMasses
     mass_error: float
@@ -231,7 +250,12 @@ def space_flow(angle: FloatArray, marches: list[March], *, conserves_energy: boo
         smallest_pressure=float(profile.lowest.min()),
         largest_mach=float(extremes.mach.max()),
         largest_velocity=float(extremes.velocity.max()),
-        exit_demand=float(extremes.demand.max()),
+        demand=EndDemand(
+            *(float(extremes[part][name]) for part, name in ((0, "front_out"), (-1, "rear_out"))),
+            *(float(extremes[part][name]) for part, name in ((0, "front_in"), (-1, "rear_in"))),
+        ),
+        exit_demand=float(max(extremes.front_out.max(), extremes.rear_out.max())),
+        inflow_demand=float(max(extremes.front_in.max(), extremes.rear_in.max())),
         work=float(sum(record.energy[0].work for record in marched)),
         masses=_exit_masses(marches),
         mass_error=_error([record.mass for record in marched]),

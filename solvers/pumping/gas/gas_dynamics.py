@@ -224,7 +224,7 @@ def _record_ends(
         record.energy[0].idle += (1.0 - share) * energy
         if share > 0.0:
             include_speed(record.extremes, cells.ends[end].mach, abs(cells.ends[end].velocity))
-            include_demand(record.extremes, cells.ends[end].demand)
+            include_demand(record.extremes, cells.ends[end].demand, end)
 
 
 @kernel

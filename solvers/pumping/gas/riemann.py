@@ -11,6 +11,8 @@ import numpy as np
 from solvers.compiled import kernel
 from solvers.pumping.flow.nozzle import Gas
 
+COLDEST = 1e-3  # least speed of sound of an inflow over that of the ambient gas; nearly a vacuum
+
 
 class State(NamedTuple):
     """Density rho [kg/m^3], velocity u [m/s] and pressure p [Pa]."""
@@ -121,8 +123,8 @@ def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
         the outflow only expands to Mach 1. Inflow comes from ambient gas at rest. If the cell is supersonic outwards,
         the face has the state of the cell.
     demand : float
-        Mach number of an expansion to the ambient pressure, negative for inflow. If the demand is above 1, the face is
-        choked, or the cell is supersonic.
+        Mach number of an expansion to the ambient pressure; negative for inflow, which expands to the pressure of the
+        cell. If the magnitude of the demand is above 1, the face is choked, or the cell is supersonic.
 
     Notes
     -----
@@ -137,8 +139,8 @@ def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
     c_f = c * (gas.pressure / p) ** (0.5 * (g - 1.0) / g)
     v_f = invariant - 2.0 * c_f / (g - 1.0)
     if v_f < 0.0:
-        face = _inflow(gas, invariant, c_f)
-        return face, face.velocity / np.sqrt(g * face.pressure / face.density)
+        face, wanted = _inflow(gas, invariant, c_f)
+        return face, -wanted
     mach = v_f / c_f
     if mach > 1.0:
         c_f = (g - 1.0) / (g + 1.0) * invariant
@@ -179,8 +181,10 @@ def front_face(gas: Gas, speed: float, cell: State) -> State:
 
 
 @kernel
-def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> State:
+def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> tuple[State, float]:
     """Compute the state of ambient gas at the face through which this gas flows from rest into a cell.
+
+    Also return the Mach number of the inflow without the limit of the speed of sound.
 
     The inflow is at most sonic. Where the inflow meets the gas of the cell, both gases have the same pressure and the
     same velocity, but they may have different temperatures. The `invariant` v + 2c/(g-1) holds in the gas of the cell.
@@ -190,9 +194,11 @@ def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> State:
     """
     g, stagnation = gas.exponent, gas.sound_speed
     slope, jet = 2.0 / (g - 1.0) * cell_sound_speed, 2.0 / (g - 1.0) * stagnation**2
-    root = np.sqrt(jet * (slope**2 + jet - invariant**2))
-    ratio = max((slope * invariant + root) / (slope**2 + jet), np.sqrt(2.0 / (g + 1.0)))
+    root = np.sqrt(max(jet * (slope**2 + jet - invariant**2), 0.0))
+    unlimited = max((slope * invariant + root) / (slope**2 + jet), COLDEST)
+    wanted = np.sqrt(max(jet * (1.0 - unlimited**2), 0.0)) / (stagnation * unlimited)
+    ratio = max(unlimited, np.sqrt(2.0 / (g + 1.0)))
     c = stagnation * ratio
     v = -np.sqrt(max(jet * (1.0 - ratio**2), 0.0))  # at rest `ratio` may be rounded to more than 1
     rho = gas.density * ratio ** (2.0 / (g - 1.0))
-    return State(rho, v, rho * c * c / g)
+    return State(rho, v, rho * c * c / g), wanted

@@ -8,6 +8,7 @@ from solvers.arrays import FloatArray
 from solvers.notices import Notice
 from solvers.scuffing.contact_slices import Peak
 from solvers.scuffing.inputs import MicropittingCheck, ScuffingInputs
+from solvers.scuffing.load_balance import BESIDE
 from solvers.scuffing.micropitting.local import FlankFilm, find_least, flank_film
 from solvers.scuffing.micropitting.notices import hot_film_notices, range_notices, standard_notices
 from solvers.scuffing.micropitting.oil_test import film_of_test, permissible_ratio
@@ -114,13 +115,18 @@ def _local(
 def _local_points(
     distribution: LoadDistribution, film: FlankFilm | None, permissible: float | None
 ) -> list[LocalPoint]:
-    """Return the film at those characteristic points (A, B, C and so on) that lie on the path of contact."""
+    """Return the film at those characteristic points (A, B, C and so on) that lie on the path of contact.
+
+    The load of a spur pair jumps at B and D. Both belong to single contact there, as in method B.
+    """
     path = distribution.path_of_contact
     places = {name: x / path.length for name, x in characteristic_points(path).items() if 0.0 <= x <= path.length}
     psi = np.array([*places.values()])
     ratio = np.full(psi.size, np.nan)
     if film is not None:
-        ratio = film.at(psi * path.length, psi * path.plane.face_width)
+        spur = path.plane.tan_base_helix == 0.0
+        beside = np.array([BESIDE * {"B": spur, "D": -spur}.get(name, 0) for name in places])
+        ratio = film.at((psi + beside) * path.length, psi * path.plane.face_width)
     finite = [None if np.isnan(value) else float(value) for value in ratio]
     return [
         LocalPoint(name, place, value, _safety(value, permissible))

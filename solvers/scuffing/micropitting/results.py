@@ -84,7 +84,7 @@ class LocalFilm:
     thermal_ehl_ratio: float | None = quantity(
         "least specific film thickness by thermal EHL",
         "λ_EHL,min",
-        text="the film by thermal EHL over the mean roughness, on the lines that are solved; null in closed form",
+        text="the film by thermal EHL over the mean roughness, at the places that decide; null in closed form",
     )
     points: tuple[LocalPoint, ...] = quantity("film against micropitting at the points of the feature line")
 

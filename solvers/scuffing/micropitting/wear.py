@@ -14,7 +14,7 @@ from solvers.scuffing.results import LoadDistribution
 class WearDepths(NamedTuple):
     """Maps [profile, face] of the depth of wear of each gear per revolution of this gear [m].
 
-    The depth is NaN near a base circle.
+    The depth is NaN at loaded points near a base circle.
     """
 
     pinion: FloatArray
@@ -40,16 +40,17 @@ def wear_depths(coefficient: float, distribution: LoadDistribution) -> WearDepth
     -----
     Eq. M15 of the chapter on micropitting: the depth of wear per passage through the mesh is k w |v_g| / v_i. Here w is
     the line load, v_g is the sliding speed, and v_i is the surface speed of the gear. At a base circle the surface
-    speed of one gear is 0, and the depth of wear would be infinite. Near a base circle the result is therefore NaN.
+    speed of one gear is 0, and the depth of wear would be infinite. Near a base circle the result is therefore NaN
+    under load, and 0 without load.
     """
     path, flank = distribution.path_of_contact, distribution.flank
     speeds = np.stack(path.surface_speeds(flank.profile_fraction * path.length, 1.0))
     sliding = np.abs(speeds[0] - speeds[1])
     with np.errstate(divide="ignore", invalid="ignore"):
         pinion, wheel = sliding / speeds
-    undefined = np.isnan(flank.pressure)
-    depths = (np.where(undefined, np.nan, coefficient * flank.line_load * ratio[:, None]) for ratio in (pinion, wheel))
-    return WearDepths(*depths)
+        loaded = [coefficient * flank.line_load * ratio[:, None] for ratio in (pinion, wheel)]
+    undefined, apart = np.isnan(flank.pressure), flank.line_load == 0.0
+    return WearDepths(*(np.where(apart, 0.0, np.where(undefined, np.nan, depth)) for depth in loaded))
 
 
 def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
@@ -78,7 +79,7 @@ def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
         wheel_at_psi=wheel.psi,
         wheel_at_face=wheel.face,
         psi=distribution.flank.profile_fraction,
-        pinion=frozen(depths.pinion.max(axis=1)),  # in a row, either all values are NaN or none is
+        pinion=frozen(depths.pinion.max(axis=1)),  # NaN in a row with a loaded point near a base circle
         wheel=frozen(depths.wheel.max(axis=1)),
         pinion_map=frozen(depths.pinion),
         wheel_map=frozen(depths.wheel),

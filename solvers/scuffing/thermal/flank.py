@@ -7,7 +7,7 @@ covers the whole flank. First, the largest value over the face is taken at every
 continues on finer grids around the places at which these values are highest.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -181,19 +181,27 @@ def find_thinnest(
         Thinnest film [m] and its place [m]; None if no point has a film.
     """
 
-    def thinness(points: ContactPoints) -> FloatArray:
-        film = film_at(points)
-        return np.divide(1.0, film, out=np.zeros(film.shape), where=~np.isnan(film))
-
     def value(x: FloatArray, y: FloatArray) -> FloatArray:
-        return thinness(contact_at_points(given, distribution, x, y))
+        return thinness(film_at, contact_at_points(given, distribution, x, y))
 
-    on_grid = np.zeros(flash.load.shape)
-    on_grid[np.arange(flash.x.size), np.argmax(flash.load, axis=1)] = thinness(flash.heaviest)
+    on_grid = thinness_map(flash, film_at)
     if not on_grid.any():
         return None
     peak = _or_beside(distribution, find_largest(flash, on_grid, value), value)
     return Peak(1.0 / peak.value, peak.x, peak.y)
+
+
+def thinness(film_at: ContactFunction, points: ContactPoints) -> FloatArray:
+    """Return the reciprocal of the film [1/m]; 0 where there is no film."""
+    film = film_at(points)
+    return np.divide(1.0, film, out=np.zeros(film.shape), where=~np.isnan(film))
+
+
+def thinness_map(flash: FlashMap, film_at: ContactFunction) -> FloatArray:
+    """Return the reciprocal of the film [1/m] on the grid at the heaviest contact of every x, and 0 elsewhere."""
+    on_grid = np.zeros(flash.load.shape)
+    on_grid[np.arange(flash.x.size), np.argmax(flash.load, axis=1)] = thinness(film_at, flash.heaviest)
+    return on_grid
 
 
 def formula_film(inputs: ScuffingInputs) -> ContactFunction:
@@ -278,11 +286,17 @@ def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) ->
     """Find the largest value of a function over the flank.
 
     `values` (n, m) are the values of the function on the grid. The search takes the largest value over the face at
-    every x. Where these values have their highest peaks along the path, the function is evaluated on finer and finer
-    grids.
+    every x, and refines where these values have their highest peaks along the path.
     """
-    across = np.argmax(values, axis=1)
-    highest = np.array(tops(values[np.arange(grid.x.size), across])[-TOPS:])
+    return max(refined(grid, values, function, tops(values.max(axis=1))[-TOPS:]), key=_height)
+
+
+def refined(grid: FlashMap, values: FloatArray, function: FlankFunction, rows: Sequence[int]) -> list[Peak]:
+    """Find the largest value of a function near its largest value in each of the `rows` of the grid.
+
+    The function is evaluated on finer and finer grids; `values` (n, m) are its values on the first.
+    """
+    highest, across = np.array(rows), np.argmax(values, axis=1)
     top, (i, k) = np.arange(highest.size), (highest, across[highest])
     x, y = np.tile(grid.x, (highest.size, 1)), np.tile(grid.y, (highest.size, 1))
     peaks = values[i, k], x[top, i], y[top, k]
@@ -291,7 +305,7 @@ def find_largest(grid: FlashMap, values: FloatArray, function: FlankFunction) ->
         near = function(np.repeat(x[:, :, None], y.shape[1], axis=2), np.repeat(y[:, None, :], x.shape[1], axis=1))
         i, k = np.divmod(np.argmax(near.reshape(highest.size, -1), axis=1), y.shape[1])
         peaks = near[top, i, k], x[top, i], y[top, k]
-    return Peak(*(float(numbers[np.argmax(peaks[0])]) for numbers in peaks))
+    return [Peak(*place) for place in zip(*(numbers.tolist() for numbers in peaks), strict=True)]
 
 
 def _around(places: FloatArray, top: IntArray, reach: int) -> FloatArray:

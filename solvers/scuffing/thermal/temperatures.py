@@ -218,19 +218,23 @@ def oil_notices(inputs: ScuffingInputs, path: PathOfContact, bulk: BulkInForce) 
 
 
 def _material_notices(inputs: ScuffingInputs, bulk: BulkInForce) -> Iterator[Notice]:
-    """Warn if a gear is not made of steel and a value of the pair is estimated by a formula for steel gears."""
+    """Warn if a gear is not made of steel and a value or a safety of the pair follows from a law for steel gears."""
     estimates = {
         "the coefficient of friction": inputs.friction == "iso_tr_13989",
         "the bulk temperature": bulk.bulk_method in {"estimated", "between"},
         "the scuffing temperature": inputs.temperatures.scuffing_test is not None,
     }
+    test = inputs.micropitting
+    safe_film = test is not None and (test.permissible_ratio is not None or test.failure_load_stage is not None)
     estimated = [name for name, is_estimated in estimates.items() if is_estimated]
+    laws = [f"ISO/TR 13989-1 estimates {' and '.join(estimated)}"] if estimated else []
+    laws += ["ISO/TR 15144-1 states the safety against micropitting"] if safe_film else []
     given, (least, largest) = inputs.distribution, STEEL_MODULI
     for name, solid in (("pinion", given.pinion_material), ("wheel", given.wheel_material)):
-        if estimated and not least <= solid.youngs_modulus <= largest:
+        if laws and not least <= solid.youngs_modulus <= largest:
             message = (
-                f"the {name} is not made of steel (Young's modulus {solid.youngs_modulus / 1e9:.4g} GPa), but ISO/TR "
-                f"13989-1 estimates {' and '.join(estimated)} for steel gears; give measured values"
+                f"the {name} is not made of steel (Young's modulus {solid.youngs_modulus / 1e9:.4g} GPa), but "
+                f"{' and '.join(laws)} for steel gears; give measured values"
             )
             yield Notice("made_for_steel", message, f"materials.{name}.youngs_modulus")
 

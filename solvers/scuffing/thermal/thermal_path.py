@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import fields, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -25,46 +26,25 @@ FIELDS = {
 CURVES = tuple(item.name for item in fields(ThermalPath) if item.name != "status")
 
 
-def thermal_paths(
-    inputs: ScuffingInputs, lines: Sequence[ContactPoints]
-) -> tuple[tuple[ThermalPath, ...], tuple[Notice, ...]]:
-    """Solve the thermal EHL contact along lines on the flank, at the points at which the flanks are in contact.
+class SolvedLine(NamedTuple):
+    """The solution along a line, the results of all points solved under their own load, and what refused the others."""
+
+    path: ThermalPath
+    results: list[ehl.LineContactResult]
+    refusals: list[InvalidInput]
+
+
+def solve_line(inputs: ScuffingInputs, points: ContactPoints) -> SolvedLine:
+    """Solve the thermal EHL contact at those points of a line at which the flanks are in contact.
 
     The oil enters the contact at the bulk temperature. If a heat balance gives pinion and wheel different bulk
     temperatures, each surface has the bulk temperature of its gear. A point outside the range of the solver gets the
-    status "refused", and a point without convergence gets the status "no_solution". Each warning is returned once, with
-    the number of points to which it applies.
-
-    Raises
-    ------
-    InvalidInput
-        The error of the solver if the solver refuses every point.
+    status "refused", and a point without convergence gets the status "no_solution". If the load at a point is too light
+    for the solver, the point is solved under the lightest load that the solver accepts; this solution gives bounds for
+    flash temperature and film.
     """
-    contacts = [
-        {point: contact_at(inputs, points, point) for point in np.flatnonzero(points.in_contact).tolist()}
-        for points in lines
-    ]
-    refusals = [
-        {point: refusal for point, contact in along.items() if (refusal := _refusal(contact)) is not None}
-        for along in contacts
-    ]
-    refused = [refusal for along in refusals for refusal in along.values()]
-    if refused and len(refused) == sum(map(len, contacts)):
-        raise InvalidInput(refused[0].code, refused[0].message, _field(refused[0].field))
-    solutions = [_solve_line(*along) for along in zip(lines, contacts, refusals, strict=True)]
-    under_own_load = [result for _, results in solutions for result in results]
-    return tuple(path for path, _ in solutions), _notices(under_own_load, refused)
-
-
-def _solve_line(
-    points: ContactPoints, contacts: dict[int, ehl.LineContactInputs], refusals: dict[int, InvalidInput]
-) -> tuple[ThermalPath, list[ehl.LineContactResult]]:
-    """Solve the points of one line on the flank.
-
-    If the load at a point is too light for the solver, the point is solved under the lightest load that the solver
-    accepts; this solution gives bounds for flash temperature and film. Return the `ThermalPath` of the line, and the
-    results of all points that were solved under their own load.
-    """
+    contacts = {point: contact_at(inputs, points, point) for point in np.flatnonzero(points.in_contact).tolist()}
+    refusals = {point: refusal for point, contact in contacts.items() if (refusal := _refusal(contact)) is not None}
     light = {point: ehl.lightest(contacts[point]) for point, why in refusals.items() if why.code == "load_range"}
     solvable = {
         point: contact for point, contact in (contacts | light).items() if point in light or point not in refusals
@@ -80,7 +60,31 @@ def _solve_line(
     for point in refusals:
         status[point] = "refused"
     path = ThermalPath(tuple(status), **{name: frozen(values) for name, values in curves.items()})
-    return path, [result for point, result in results.items() if point not in light]
+    own = [result for point, result in results.items() if point not in light]
+    return SolvedLine(path, own, list(refusals.values()))
+
+
+def joined(paths: Sequence[ThermalPath]) -> ThermalPath:
+    """Return the points of several paths, one after the other, as one path."""
+    status = tuple(outcome for path in paths for outcome in path.status)
+    return ThermalPath(
+        status, **{name: frozen(np.concatenate([getattr(path, name) for path in paths])) for name in CURVES}
+    )
+
+
+def solver_notices(lines: Sequence[SolvedLine]) -> tuple[Notice, ...]:
+    """Return every warning of the solver once, with the number of points to which it applies.
+
+    Raises
+    ------
+    InvalidInput
+        The error of the solver if the solver refuses every point.
+    """
+    results = [result for line in lines for result in line.results]
+    refusals = [refusal for line in lines for refusal in line.refusals]
+    if refusals and not results:
+        raise InvalidInput(refusals[0].code, refusals[0].message, _field(refusals[0].field))
+    return _notices(results, refusals)
 
 
 def contact_at(inputs: ScuffingInputs, points: ContactPoints, point: int) -> ehl.LineContactInputs:

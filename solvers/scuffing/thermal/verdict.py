@@ -18,7 +18,15 @@ from solvers.notices import Notice
 from solvers.scuffing.contact_slices import Peak
 from solvers.scuffing.inputs import LoadDistributionInputs
 from solvers.scuffing.results import LoadDistribution
-from solvers.scuffing.safety_results import ContactTemperature, Film, Flash, Safety, ScuffingPath, ThermalPath
+from solvers.scuffing.safety_results import (
+    ContactTemperature,
+    Film,
+    Flash,
+    PointStatus,
+    Safety,
+    ScuffingPath,
+    ThermalPath,
+)
 from solvers.scuffing.thermal.practice import scuffing_risk
 
 
@@ -29,26 +37,28 @@ class CheckedLine(NamedTuple):
     face: FloatArray
 
 
-def unknown_points(paths: Sequence[ThermalPath], bulks: Sequence[FloatArray]) -> int:
+class SolvedContacts(NamedTuple):
+    """The contacts from which the extremes by thermal EHL are taken.
+
+    These are the decisive places of the flank, or the points of the feature line if only this line is checked.
+    """
+
+    psi: FloatArray  # fraction of the path from A
+    face: FloatArray  # distance from the end that meshes first [m]
+    path: ThermalPath
+
+
+def unknown_points(path: ThermalPath, bulk: FloatArray) -> int:
     """Count the unsolved points that may be hotter, or may have a thinner film, than every solved point.
 
-    `bulks` has one array per path, with the bulk temperatures [K] at the points of the path. The array has either one
-    row for both gears, or two rows for pinion and wheel.
+    `bulk` has the bulk temperatures [K] at the points, either in one row for both gears or in two rows for pinion and
+    wheel.
     """
-    status = np.concatenate([path.status for path in paths])
-    film, film_bound, flank, flash_bound = (
-        np.concatenate(values)
-        for values in (
-            [path.minimum_film for path in paths],
-            [path.film_bound for path in paths],
-            [hotter_surface(path, bulk) for path, bulk in zip(paths, bulks, strict=True)],
-            [path.flash_bound + np.max(np.atleast_2d(bulk), axis=0) for path, bulk in zip(paths, bulks, strict=True)],
-        )
-    )
-    missing = np.isin(status, ("no_solution", "refused"))
-    if not _any_number(film):
+    missing = np.isin(path.status, ("no_solution", "refused"))
+    if not _any_number(path.minimum_film):
         return int(missing.sum())
-    harmless = (flash_bound <= np.nanmax(flank)) & (film_bound >= np.nanmin(film))
+    flank, flash_bound = hotter_surface(path, bulk), path.flash_bound + np.max(np.atleast_2d(bulk), axis=0)
+    harmless = (flash_bound <= np.nanmax(flank)) & (path.film_bound >= np.nanmin(path.minimum_film))
     return int((missing & ~harmless).sum())
 
 
@@ -62,7 +72,9 @@ def hotter_surface(path: ThermalPath, bulk: FloatArray) -> FloatArray:
     return hotter
 
 
-def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_length: float) -> Flash:
+def largest_flash(
+    feature: CheckedLine, hottest: Peak | None, solved: SolvedContacts | None, path_length: float
+) -> Flash:
     """Return the largest flash temperature by Blok, and the largest flash temperature by thermal EHL.
 
     At each point, the thermal EHL solution gives two flash temperatures: one for the pinion and one for the wheel. The
@@ -70,14 +82,16 @@ def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_lengt
 
     Parameters
     ----------
-    lines : sequence of CheckedLine
-        The feature line, and the profile line if it was checked.
+    feature : CheckedLine
+        The feature line.
     hottest : Peak or None
         Largest flash temperature by Blok over the flank [K]; None if the flank was not checked.
+    solved : SolvedContacts or None
+        The contacts from which the extremes by thermal EHL are taken; None in closed form.
     path_length : float
         Length of the path of contact [m].
     """
-    path, face = lines[0]
+    path, face = feature
     if not _any_number(path.blok_flash):
         return Flash(None, None)
     place = int(np.nanargmax(path.blok_flash))
@@ -86,25 +100,27 @@ def largest_flash(lines: Sequence[CheckedLine], hottest: Peak | None, path_lengt
     if hottest is not None and hottest.value > largest:
         at_profile = hottest.x / path_length
         flash = replace(flash, blok_max=hottest.value, blok_at_profile=at_profile, blok_at_face=hottest.y)
-    if path.thermal is None:
+    if solved is None or path.thermal is None:
         return flash
-    solutions = [line.path.thermal for line in lines if line.path.thermal is not None]
-    curves = [np.fmax(thermal.pinion_flash, thermal.wheel_flash) for thermal in solutions]
-    hottest_of_film = _extreme(lines, curves, largest=True)
-    if hottest_of_film is None:
+    hotter = np.fmax(solved.path.pinion_flash, solved.path.wheel_flash)
+    if not _any_number(hotter):
         return flash
-    value, profile, across = hottest_of_film
+    top = int(np.nanargmax(hotter))
     return replace(
         flash,
-        thermal_ehl_max=value,
-        thermal_ehl_at_psi=_place_on(path, curves[0], largest=True),
-        thermal_ehl_at_profile=profile,
-        thermal_ehl_at_face=across,
+        thermal_ehl_max=float(hotter[top]),
+        thermal_ehl_at_psi=_place_on(path, np.fmax(path.thermal.pinion_flash, path.thermal.wheel_flash), largest=True),
+        thermal_ehl_at_profile=float(solved.psi[top]),
+        thermal_ehl_at_face=float(solved.face[top]),
     )
 
 
 def thinnest_film(
-    lines: Sequence[CheckedLine], thinnest: Peak | None, path_length: float, given: LoadDistributionInputs
+    feature: CheckedLine,
+    thinnest: Peak | None,
+    solved: SolvedContacts | None,
+    path_length: float,
+    given: LoadDistributionInputs,
 ) -> Film:
     """Return the thinnest film and its ratio to the roughness.
 
@@ -113,32 +129,34 @@ def thinnest_film(
 
     Parameters
     ----------
-    lines : sequence of CheckedLine
-        The feature line, and the profile line if it was checked.
+    feature : CheckedLine
+        The feature line.
     thinnest : Peak or None
         Thinnest film over the flank by Dowson and Higginson [m]; None if the flank was not checked.
+    solved : SolvedContacts or None
+        The contacts from which the extremes by thermal EHL are taken; None in closed form.
     path_length : float
         Length of the path of contact [m].
     given : LoadDistributionInputs
         The pair with the roughness of its flanks.
     """
-    formula = [line.path.dowson_higginson for line in lines]
-    judged = _extreme(lines, formula, largest=False)
+    path, curve = feature.path, feature.path.dowson_higginson
+    judged = _least(curve, path.psi, feature.face)
     if thinnest is not None and (judged is None or thinnest.value < judged[0]):
         judged = thinnest.value, thinnest.x / path_length, thinnest.y
     if judged is None:
         return Film()
-    film, curves = Film(dowson_higginson_min=judged[0]), formula
-    if lines[0].path.thermal is not None:
-        curves = [line.path.thermal.minimum_film for line in lines if line.path.thermal is not None]
-        judged = _extreme(lines, curves, largest=False)
+    film = Film(dowson_higginson_min=judged[0])
+    if solved is not None and path.thermal is not None:
+        curve = path.thermal.minimum_film
+        judged = _least(solved.path.minimum_film, solved.psi, solved.face)
         if judged is None:
             return film
         film = replace(film, thermal_ehl_min=judged[0])
     ratio = thickness_ratio(judged[0], given.pinion_material.roughness, given.wheel_material.roughness)
     return replace(
         film,
-        min_at_psi=_place_on(lines[0].path, curves[0], largest=False),
+        min_at_psi=_place_on(path, curve, largest=False),
         min_at_profile=judged[1],
         min_at_face=judged[2],
         thickness_ratio=ratio,
@@ -154,21 +172,15 @@ def without_thermal(flash: Flash, film: Film) -> tuple[Flash, Film]:
     return by_formula, Film(dowson_higginson_min=film.dowson_higginson_min)
 
 
-def _extreme(
-    lines: Sequence[CheckedLine], curves: Sequence[FloatArray], *, largest: bool
-) -> tuple[float, float, float] | None:
-    """Return the largest value of all lines and its place, or the smallest value and its place if `largest` is False.
+def _least(values: FloatArray, psi: FloatArray, face: FloatArray) -> tuple[float, float, float] | None:
+    """Return the smallest value and its place: fraction of the path, and distance along the face [m].
 
-    The place has two coordinates: the fraction of the path, and the distance [m] from the end of the face that meshes
-    first. The result is None if all values are NaN.
+    The result is None if all values are NaN.
     """
-    values = np.concatenate(curves)
     if not _any_number(values):
         return None
-    place = int(np.nanargmax(values) if largest else np.nanargmin(values))
-    profile = np.concatenate([line.path.psi for line in lines])
-    face = np.concatenate([line.face for line in lines])
-    return float(values[place]), float(profile[place]), float(face[place])
+    place = int(np.nanargmin(values))
+    return float(values[place]), float(psi[place]), float(face[place])
 
 
 def _place_on(path: ScuffingPath, values: FloatArray, *, largest: bool) -> float | None:
@@ -198,19 +210,20 @@ def _what_leaves_no_film(distribution: LoadDistribution) -> str:
 
 def path_notices(
     distribution: LoadDistribution,
-    paths: Sequence[ScuffingPath],
+    feature: ScuffingPath,
+    status: Sequence[PointStatus],
     hottest: ContactTemperature | None,
     safety: Safety | None,
     unknown: int,
 ) -> tuple[Notice, ...]:
     """List warnings about points without a film, about unsolved points, and about a safety factor without meaning.
 
-    `unknown` is the number of unsolved points that may be the hottest, or may have the thinnest film. The list also
-    contains the note that `_other_verdict` returns.
+    `status` has the outcomes of all points: of the lines and of the places that decide. `unknown` is the number of
+    unsolved points that may be the hottest, or may have the thinnest film. The list also contains the note that
+    `_other_verdict` returns.
     """
     notices = []
-    status = [outcome for path in paths for outcome in path.status]
-    if "unloaded" in paths[0].status:
+    if "unloaded" in feature.status:
         message = "some points of the feature line have no load or no motion; at these points there is no film"
         notices.append(Notice("no_film", message, _what_leaves_no_film(distribution), rank="note"))
     if unknown:

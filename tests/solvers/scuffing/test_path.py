@@ -1,5 +1,6 @@
 """A path has the thermal solution of its single points, and no verdict if unsolved points might change the verdict."""
 
+import re
 from dataclasses import replace
 from functools import cache
 
@@ -144,10 +145,11 @@ def test_a_path_with_unsolved_points_gives_no_verdict() -> None:
     inputs = replace(modified_pairs.relieved_pair(8), lubricant=Lubricant(viscosity=80.0), film=AS_GIVEN)
     result = solve_scuffing(inputs)
     missing = result.path.status.count("no_solution") + result.path.status.count("refused")
-    assert 0 < missing == result.unsolved_points
+    assert 0 < missing <= result.unsolved_points
     assert_no_verdict(result)
     (warning,) = [warning for warning in result.warnings if warning.code == "unsolved_points"]
-    assert f"{result.path.status.count('no_solution')} of {len(result.path.status)} points" in warning.message
+    unsolved, outside = map(int, re.findall(r"(\d+) of \d+ points have no solution and (\d+) are", warning.message)[0])
+    assert unsolved + outside == result.unsolved_points
     assert result.flash.blok_max is not None
     assert result.film.dowson_higginson_min is not None
 
@@ -167,7 +169,7 @@ def test_a_refused_point_counts_and_takes_the_verdict() -> None:
         )
     )
     assert "no_solution" not in result.path.status
-    assert result.unsolved_points == result.path.status.count("refused") > 0
+    assert result.unsolved_points >= result.path.status.count("refused") > 0
     assert_no_verdict(result)
 
 
@@ -321,10 +323,11 @@ def test_roughness_decides_the_thickness_ratio(pair_1: Scuffing) -> None:
 
 def test_warnings_count_the_points_they_concern(pair_1: Scuffing) -> None:
     slow = [warning.message for warning in pair_1.warnings if warning.code == "low_peclet"]
-    count = pair_1.path.status.count("ok_with_warnings")
+    count = (pair_1.path.status + pair_1.hottest_path.status).count("ok_with_warnings")
     assert count > 0
     assert len(slow) == 1
-    assert slow[0].startswith(f"at {count} of 21 points")
+    concerned, points = map(int, re.findall(r"^at (\d+) of (\d+) points", slow[0])[0])
+    assert count <= concerned < points, "the points of both lines and the places that decide"
 
 
 def compressor_gears(power: float, points: int = 11) -> ScuffingInputs:
@@ -413,7 +416,7 @@ def test_a_path_that_nowhere_converges_ends_with_its_steps(monkeypatch: pytest.M
         charge(given, resolution, nodes, steps)
 
     monkeypatch.setattr(continuation.Budget, "charge", counted)
-    result = solve_scuffing(inputs(points=40))
+    result = solve_scuffing(inputs(points=40, line="feature_line"))
     assert set(result.path.status) == {"no_solution"}
     assert result.unsolved_points == 40
     assert sum(taken) < (path.HOPELESS + 28 * path.SHARE_WITHOUT_HOPE) * continuation.STEPS_IN_ALL
