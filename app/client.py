@@ -32,7 +32,7 @@ Http = TypeVar("Http", bound=httpx.Client | httpx.AsyncClient)
 
 ADDRESS = "http://127.0.0.1:8000"
 OPTIONS: dict[str, Any] = {
-    "timeout": 60.0,  # s; longer than the default deadline of a calculation, which is 30 s
+    "timeout": 120.0,  # s; longer than the service waits for its kernels (90 s), and than its default deadline (30 s)
     "limits": httpx.Limits(keepalive_expiry=3.0),  # s; the service closes idle connections after 5 s
 }
 PATIENCE_S = 120.0  # s; default of `patience_s`; chosen: four times the service's deadline

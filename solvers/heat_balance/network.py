@@ -143,8 +143,8 @@ class Network:
     @property
     def coldest(self) -> float:
         """Temperature of the coldest oil that enters, or of the surroundings of the casing if they are colder [K]."""
-        surroundings = [self.casing.ambient] if self.casing else []
-        return self.oil.inlet + min(0.0, *self._feeds, *(ambient - self.oil.inlet for ambient in surroundings))
+        entering = (self.oil.inlet + feed for feed in (0.0, *self._feeds))
+        return min((*entering, self.casing.ambient) if self.casing else entering)
 
     @cached_property
     def _feeds(self) -> tuple[float, ...]:
