@@ -34,7 +34,7 @@ def inlined_kernel(function: Callable[P, R]) -> Callable[P, R]:
     return _compiled(function, forceinline=True)
 
 
-class Announcement(event.Listener):  # type: ignore[misc]
+class Announcement(event.Listener):
     """Says once, on standard error, that kernels are being compiled: a first call may take half a minute."""
 
     def __init__(self) -> None:

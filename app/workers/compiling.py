@@ -11,7 +11,7 @@ from solvers.compiled import announcement
 from solvers.kernel_cache import FOLDER
 
 
-class Clock(event.Listener):  # type: ignore[misc]
+class Clock(event.Listener):
     """Keeps a file while numba compiles, so that the pool does not count this time against the deadline of the call."""
 
     def __init__(self) -> None:
