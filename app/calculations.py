@@ -37,21 +37,36 @@ class Cost(NamedTuple):
 class Stage:
     """A group of kernels (functions compiled by numba) that are compiled and loaded together.
 
-    Endpoints that need these kernels answer only after the stage is ready. Together, the `examples` call all kernels
-    that these endpoints need, except kernels of earlier stages. `kernels` is the approximate number of kernels in the
-    stage.
+    Requests that need these kernels are answered after the stage is ready. Together, the `examples` call all kernels
+    that these requests need, except those of the stages in `after`. `kernels` is the approximate number of kernels in
+    the stage. `model` has model options that replace those of the examples.
     """
 
     name: str
     kernels: int
     examples: tuple[str, ...]
+    after: tuple["Stage", ...] = ()
+    model: tuple[tuple[str, str], ...] = ()
+
+    @property
+    def all(self) -> frozenset["Stage"]:
+        """The stage itself and all stages that it builds on."""
+        return frozenset((self,)).union(*(stage.all for stage in self.after))
+
+
+class Further(NamedTuple):
+    """A stage that a request needs only if a field has none of the values in `spared`; None: the field is left out."""
+
+    stage: Stage
+    field: str
+    spared: tuple[str | None, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class Calculation:
     """One endpoint.
 
-    The endpoint answers as soon as the kernels of its `stage` are compiled. `figures` are the figures that show the
+    Requests need the kernels of its `stage`, and some need a `further` stage. `figures` are the figures that show the
     answers. `cost` estimates the time of a request. `cost` is None if no permissible request takes too long.
     `sized_flow` returns the oil flow that the calculation sizes for its inputs [m^3/s], None if it sizes none.
     """
@@ -67,6 +82,14 @@ class Calculation:
     figures: tuple[Declaration, ...] = ()
     cost: Callable[[Any], Cost] | None = None
     sized_flow: Callable[[Any], float | None] | None = None
+    further: Further | None = None
+
+    def stages(self, value_of: Callable[[str], Any] | None = None) -> frozenset[Stage]:
+        """Return the stages that a request needs. `value_of` returns the value of a field; None: any request."""
+        further = self.further
+        if further is None or (value_of is not None and value_of(further.field) in further.spared):
+            return self.stage.all
+        return self.stage.all | further.stage.all
 
 
 def _thermal_path(request: Any) -> Cost:
@@ -113,25 +136,29 @@ def _choking_search(request: Any) -> Cost:
     return Cost(0.05 * pockets + 3e-4 * pockets**2, "model.slices")
 
 
+CLOSED_FORM = (("lubrication", "closed_form"),)
+
 # The numbers of kernels were counted at a start from an empty cache.
 COUPLING = Stage("coupling", 7, ("pahl-axial-displacement",))
-SLEEVE = Stage("coupling sleeve", 55, ("pahl-sleeve-orbit", "pahl-z-arrangement"))
 LOADS = Stage("load distribution", 101, ("fzg-type-a",))
-PUMPING = Stage("pumping", 115, ("milian-case-1", "milian-case-1-pocket-chain"))
+SCUFFING = Stage(
+    "scuffing", 20, ("xue-pair-1-scuffing", "starter-industrial-micropitting", "starter-turbo-pair-heat"),
+    (LOADS,), CLOSED_FORM,
+)  # fmt: skip
+PUMPING = Stage("pumping", 90, ("milian-case-1",))
+SLEEVE = Stage("coupling sleeve", 55, ("pahl-sleeve-orbit", "pahl-z-arrangement"), (COUPLING,))
+DRIVE_TRAIN = Stage(
+    "drive train", 13, ("starter-turbo-gear-drive-train", "starter-turbo-gear-heat"), (SCUFFING, PUMPING, SLEEVE),
+    CLOSED_FORM,
+)  # fmt: skip
+POCKET_CHAIN = Stage("pocket chain", 25, ("milian-case-1-pocket-chain",), (PUMPING,))
 LINE_CONTACT = Stage(
-    "line contact",
-    167,
-    (
-        "xue-line-contact",
-        "xue-line-contact-isothermal",
-        "xue-pair-1-thermal",
-        "starter-industrial-micropitting",
-        "starter-turbo-pair-heat",
-    ),
+    "line contact", 140, ("xue-line-contact", "xue-line-contact-isothermal", "xue-pair-1-thermal"), (SCUFFING,)
 )
-DRIVE_TRAIN = Stage("drive train", 13, ("starter-turbo-gear-drive-train",))
+THERMAL = Further(LINE_CONTACT, "model.lubrication", ("closed_form",))
+CHAIN = Further(POCKET_CHAIN, "model.flow", (None, "gas_dynamics", "incompressible"))
 
-STAGES = (COUPLING, SLEEVE, LOADS, PUMPING, DRIVE_TRAIN, LINE_CONTACT)
+STAGES = (COUPLING, LOADS, SCUFFING, PUMPING, SLEEVE, DRIVE_TRAIN, POCKET_CHAIN, LINE_CONTACT)
 """The stages in the order in which a single process compiles them."""
 
 CALCULATIONS = (
@@ -177,6 +204,7 @@ CALCULATIONS = (
         solve=pumping.solve,
         response=pumping_schema.PumpingResponse,
         stage=PUMPING,
+        further=CHAIN,
         figures=pumping_figures.FIGURES,
     ),
     Calculation(
@@ -188,6 +216,7 @@ CALCULATIONS = (
         solve=pumping.choking_speeds,
         response=pumping_schema.ChokingSpeedResponse,
         stage=PUMPING,
+        further=CHAIN,
         figures=pumping_figures.CHOKING_FIGURES,
         cost=_choking_search,
     ),
@@ -210,7 +239,8 @@ CALCULATIONS = (
         request=scuffing_schema.ScuffingRequest,
         solve=scuffing.solve_scuffing,
         response=scuffing_schema.ScuffingResponse,
-        stage=LINE_CONTACT,
+        stage=SCUFFING,
+        further=THERMAL,
         figures=scuffing_figures.FIGURES,
         cost=_checked_lines,
         sized_flow=scuffing.sized_flow,
@@ -235,6 +265,7 @@ CALCULATIONS = (
         solve=drive_train.solve,
         response=drive_train_schema.DriveTrainResponse,
         stage=DRIVE_TRAIN,
+        further=THERMAL,
         figures=drive_train_figures.FIGURES,
         cost=_unit_states,
         sized_flow=drive_train.sized_flow,
@@ -248,6 +279,7 @@ CALCULATIONS = (
         solve=drive_train.solve_warm_up,
         response=drive_train_schema.WarmUpResponse,
         stage=DRIVE_TRAIN,
+        further=THERMAL,
         figures=warm_up_figures.FIGURES,
     ),
 )

@@ -32,7 +32,7 @@ Http = TypeVar("Http", bound=httpx.Client | httpx.AsyncClient)
 
 ADDRESS = "http://127.0.0.1:8000"
 OPTIONS: dict[str, Any] = {
-    "timeout": 60.0,  # s; longer than the default deadline of a calculation, which is 30 s
+    "timeout": 120.0,  # s; longer than the service waits for its kernels (90 s), and than its default deadline (30 s)
     "limits": httpx.Limits(keepalive_expiry=3.0),  # s; the service closes idle connections after 5 s
 }
 PATIENCE_S = 120.0  # s; default of `patience_s`; chosen: four times the service's deadline
@@ -192,6 +192,7 @@ class _Study(Generic[Http]):
         self._patience_s = patience_s
         self._progress = progress
         self._bar: Any = None
+        self._points = set[int]()  # the indices of the points that have arrived
 
     def _begin(self) -> float:
         """Reset the study before a new run.
@@ -199,6 +200,7 @@ class _Study(Generic[Http]):
         Return the reading of the monotonic clock [s] after which the client stops repeating a refused request.
         """
         self.header, self.end = {}, {}
+        self._points.clear()
         if self._progress:
             from tqdm.auto import tqdm  # noqa: PLC0415  only progress bars need it
 
@@ -212,7 +214,7 @@ class _Study(Generic[Http]):
         """
         try:
             yield from self._process(json.loads(text))
-        except (ValueError, LookupError, TypeError) as error:
+        except (ValueError, LookupError, TypeError, RecursionError) as error:
             raise StudyError(f"the service sent a line that does not belong to a study: {text[:100]}") from error
 
     def _process(self, line: Json) -> Iterator[Json]:
@@ -222,6 +224,8 @@ class _Study(Generic[Http]):
             case "progress":
                 self._show(line["done"], line["total"])
             case "end":
+                if "axes" in self.header and len(self._points) != self.header["total"]:
+                    raise StudyError(f"the study has {self.header['total']} points, but {len(self._points)} arrived")
                 self.end = line
                 if total := self.header.get("total"):
                     self._show(total, total)
@@ -229,6 +233,9 @@ class _Study(Generic[Http]):
                 self.header = line
             case kind:
                 if kind == "point":
+                    if line["index"] in self._points:
+                        raise StudyError(f"the service sent the point {line['index']} twice")
+                    self._points.add(line["index"])
                     self._show(line["index"] + 1, self.header["total"])
                 yield line
 
@@ -280,7 +287,7 @@ class Study(_Study[httpx.Client]):
         """
         give_up = self._begin()
         while True:
-            with self._http.stream("POST", self._endpoint, json=self._request) as response:
+            with _answered(), self._http.stream("POST", self._endpoint, json=self._request) as response:
                 if response.is_success:
                     with _whole():
                         for text in response.iter_lines():
@@ -321,15 +328,16 @@ class AsyncStudy(_Study[httpx.AsyncClient]):
         """
         give_up = self._begin()
         while True:
-            async with self._http.stream("POST", self._endpoint, json=self._request) as response:
-                if response.is_success:
-                    with _whole():
-                        async for text in response.aiter_lines():
-                            for line in self._results(text):
-                                yield line
-                    self._finish()
-                    return
-                await response.aread()
+            with _answered():
+                async with self._http.stream("POST", self._endpoint, json=self._request) as response:
+                    if response.is_success:
+                        with _whole():
+                            async for text in response.aiter_lines():
+                                for line in self._results(text):
+                                    yield line
+                        self._finish()
+                        return
+                    await response.aread()
             await asyncio.sleep(_wait_s(response, give_up))
 
     async def frame(self) -> "DataFrame":
@@ -374,7 +382,8 @@ class Tribodrive(_Endpoints[Json, Study]):
         """Post a request to an endpoint and return the answer. Raises `ProblemError` if the answer is a problem."""
         give_up = time.monotonic() + self._patience_s
         while True:
-            response = self._http.post(endpoint, json=request)
+            with _answered():
+                response = self._http.post(endpoint, json=request)
             if response.is_success:
                 return _json_of(response)
             time.sleep(_wait_s(response, give_up))
@@ -396,7 +405,8 @@ class Tribodrive(_Endpoints[Json, Study]):
         dict
             Body of the request.
         """
-        return _request_of(self._http.get(f"/v1/examples/{name}"))
+        with _answered():
+            return _request_of(self._http.get(f"/v1/examples/{name}"))
 
 
 class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
@@ -420,7 +430,8 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
         """Post a request to an endpoint and return the answer. Raises `ProblemError` if the answer is a problem."""
         give_up = time.monotonic() + self._patience_s
         while True:
-            response = await self._http.post(endpoint, json=request)
+            with _answered():
+                response = await self._http.post(endpoint, json=request)
             if response.is_success:
                 return _json_of(response)
             await asyncio.sleep(_wait_s(response, give_up))
@@ -442,7 +453,17 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
         dict
             Body of the request.
         """
-        return _request_of(await self._http.get(f"/v1/examples/{name}"))
+        with _answered():
+            return _request_of(await self._http.get(f"/v1/examples/{name}"))
+
+
+@contextmanager
+def _answered() -> Iterator[None]:
+    """Raise ServiceError if the service cannot be reached, or if the connection breaks off."""
+    try:
+        yield
+    except httpx.RequestError as error:
+        raise ServiceError(f"the connection failed: {error or type(error).__name__}") from error
 
 
 @contextmanager
@@ -458,7 +479,7 @@ def _json_of(response: httpx.Response) -> Json:
     """Return the JSON object of an answer. Raises `ServiceError` if the answer is not a JSON object."""
     try:
         content = response.json()
-    except ValueError:
+    except (ValueError, RecursionError):
         content = None
     if not isinstance(content, dict):
         raise ServiceError(f"{response.status_code}: the answer is not a JSON object: {response.text[:100]}")

@@ -4,14 +4,17 @@ import argparse
 import gc
 import json
 import os
+import socket
 import sys
 import threading
 from collections.abc import Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
 from app.settings import Settings, settings
 
+LEAST_DESCRIPTORS = 32  # four of every worker, and those of the connections; chosen
 PROGRESS_S = 1.0  # time between two lines that report progress
 EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # status 1: no answer, 2: wrong arguments
 
@@ -26,6 +29,7 @@ def main() -> None:
         epilog=_documentation(),
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
+    parser.add_argument("--port", type=int, help="port to listen on, instead of TRIBODRIVE_PORT (see below)")
     commands = parser.add_subparsers(dest="command", metavar="command", required=False)
     rexs = commands.add_parser("rexs", help="print the requests of a gear unit's file (REXS) instead of serving")
     rexs.add_argument("file", type=Path, help="a .rexs, .rexsj or .rexsz file")
@@ -43,6 +47,8 @@ def main() -> None:
         case "compile":
             compile_kernels(arguments.stages)
         case _:
+            if arguments.port is not None:
+                os.environ["TRIBODRIVE_PORT"] = str(arguments.port)
             serve("app.main:app")
 
 
@@ -96,9 +102,11 @@ def compile_kernels(names: Sequence[str]) -> None:
 
     from app.calculations import STAGES  # noqa: PLC0415
     from app.evaluate import warm  # noqa: PLC0415
+    from solvers.compiled import announcement  # noqa: PLC0415
     from solvers.kernel_cache import FOLDER  # noqa: PLC0415
 
     gc.enable()
+    announcement.mute()
     stages = {stage.name: stage for stage in STAGES}
     if unknown := set(names) - set(stages):
         sys.exit(f"tribodrive: there is no stage {', '.join(sorted(unknown))}; the stages are {', '.join(stages)}")
@@ -154,6 +162,8 @@ def serve(application: str) -> None:
     limits = settings()
     import uvicorn  # noqa: PLC0415  the other commands need no server
 
+    refuse_taken_port(limits.host, limits.port)
+    warn_of_few_descriptors()
     uvicorn.run(
         application,
         host="" if limits.host == "::" else limits.host,  # IPv4 and IPv6; IPv4 addresses of clients keep their form
@@ -162,11 +172,35 @@ def serve(application: str) -> None:
         h11_max_incomplete_event_size=limits.max_header_bytes,
         limit_concurrency=limits.limit_concurrency,
         timeout_graceful_shutdown=limits.shutdown_s,
+        proxy_headers=bool(limits.proxies),
+        forwarded_allow_ips=limits.proxies or None,
         log_config=None,  # `app.log` writes the log
         log_level=limits.log_level,
         access_log=False,
         server_header=False,
     )
+
+
+def refuse_taken_port(host: str, port: int) -> None:
+    """Exit with one line if the address cannot be used, before any worker starts."""
+    try:
+        for family, kind, protocol, _, address in socket.getaddrinfo(host, port, type=socket.SOCK_STREAM):
+            with socket.socket(family, kind, protocol) as trial:
+                trial.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)  # as asyncio does
+                trial.bind(address)
+    except OSError as error:
+        sys.exit(f"tribodrive: cannot listen on port {port} of {host}: {error.strerror}; --port names another port")
+
+
+def warn_of_few_descriptors() -> None:
+    """Say if the process may open too few files to serve."""
+    with suppress(ImportError):
+        import resource  # noqa: PLC0415  not on all platforms
+
+        limit, _ = resource.getrlimit(resource.RLIMIT_NOFILE)
+        if limit < LEAST_DESCRIPTORS:
+            line = f"tribodrive: only {limit} files may be open at once, fewer than {LEAST_DESCRIPTORS} (ulimit -n)"
+            print(line, file=sys.stderr, flush=True)  # noqa: T201  before the log is there
 
 
 def open_standard_streams() -> None:

@@ -131,7 +131,10 @@ def warm(stage: Stage) -> None:
     """Compile the kernels of a stage in this process, or load them, by solving the examples of the stage."""
     for name in stage.examples:
         example = examples()[name]
-        answer_of(example.endpoint, BY_PATH[example.endpoint].request.model_validate(example.request))
+        request = example.request
+        if stage.model:
+            request = request | {"model": request.get("model", {}) | dict(stage.model)}
+        answer_of(example.endpoint, BY_PATH[example.endpoint].request.model_validate(request))
 
 
 def json_answer(calculation: Calculation, request: Request) -> bytes:

@@ -3,8 +3,11 @@
 import asyncio
 import gc
 import logging
-from collections.abc import AsyncIterator
+import os
+import traceback
+from collections.abc import AsyncIterator, Coroutine
 from contextlib import asynccontextmanager
+from typing import Any
 
 from cachetools import LRUCache
 from fastapi import FastAPI
@@ -36,6 +39,20 @@ NOT_COMPRESSED = (*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/pdf", "applicati
 logger = logging.getLogger("tribodrive")
 
 
+async def _vital(work: Coroutine[Any, Any, None]) -> None:
+    """Run a task without which the service cannot serve. If the task fails, end the process with the reason.
+
+    An exception would end the other tasks, but not the process: it would refuse every calculation for ever. The
+    workers end themselves when their parent is gone, and a supervisor starts the service anew.
+    """
+    try:
+        await work
+    except Exception as error:  # noqa: BLE001  whatever it is
+        reason = "".join(traceback.format_exception(error))
+        os.write(2, f"{reason}tribodrive: cannot serve any more: {error!r}\n".encode(errors="replace"))
+        os._exit(1)
+
+
 def create_app() -> FastAPI:
     """Create the application. The settings are read from environment variables."""
     limits = settings()
@@ -54,8 +71,8 @@ def create_app() -> FastAPI:
                 logger.warning(line)
             logger.info("tribodrive: %d workers", limits.workers)
             async with app.state.studies.open(), asyncio.TaskGroup() as group:
-                works = [pool.keep_workers(), start_up.run(), *(pool.serve() for _ in range(limits.workers))]
-                tasks = [group.create_task(work) for work in works]
+                works = [pool.keep_workers(), start_up.run(pool), *(pool.serve() for _ in range(limits.workers))]
+                tasks = [group.create_task(_vital(work)) for work in works]
                 try:
                     yield
                 finally:

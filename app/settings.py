@@ -50,6 +50,9 @@ class Settings(BaseSettings):
     client_header: str | None = Field(
         None, description="header in which a proxy names the client, for fair shares; without it the address counts"
     )
+    proxies: str = Field(
+        "", description="addresses of proxies whose X-Forwarded-For is believed, with commas between them; * for all"
+    )
     deadline_s: float = Field(30.0, gt=0, description="longest time for one calculation, waiting included; then 504")
     study_points: int = Field(
         2500, ge=1, le=1_000_000, description="most points of one study, with a scheduler 100000; beyond it 422"

@@ -6,7 +6,9 @@ from collections.abc import Iterable
 from io import StringIO
 from typing import Any
 
-FORMULA_SIGNS = ("=", "+", "-", "@", "\t", "\r", "\n")
+FORMULA_SIGNS = r"=+\-@\t\r\n"
+# A cell begins at the start of the text, and after a separator of lists, at which some spreadsheets split it.
+_STARTS = re.compile(rf"(^|[;\t]\s*)([{FORMULA_SIGNS}])")
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)  # a number with a sign is not a formula
 
 
@@ -27,6 +29,6 @@ def _cell(value: Any, digits: int | None) -> Any:
         return "true" if value else "false"
     if isinstance(value, float) and digits is not None:
         return f"{value:.{digits}g}"
-    if isinstance(value, str) and value.startswith(FORMULA_SIGNS) and not _NUMBER.fullmatch(value):
-        return f"'{value}"
+    if isinstance(value, str) and not _NUMBER.fullmatch(value):
+        return _STARTS.sub(r"\1'\2", value)
     return value

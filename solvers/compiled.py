@@ -5,15 +5,18 @@ disk (see `solvers.kernel_cache`). In a kernel, a division by zero gives infinit
 is raised.
 """
 
+import sys
 from collections.abc import Callable
-from typing import ParamSpec, TypeVar, cast
+from typing import Any, ParamSpec, TypeVar, cast
 
 import numba
+from numba.core import event
 
 from solvers.kernel_cache import FOLDER
 
 P = ParamSpec("P")
 R = TypeVar("R")
+SECONDS_EACH = 0.25  # s of one core, mean over all kernels
 
 
 def kernel(function: Callable[P, R]) -> Callable[P, R]:
@@ -31,7 +34,41 @@ def inlined_kernel(function: Callable[P, R]) -> Callable[P, R]:
     return _compiled(function, forceinline=True)
 
 
+class Announcement(event.Listener):
+    """Says once, on standard error, that kernels are being compiled: a first call may take half a minute."""
+
+    def __init__(self) -> None:
+        self._kernels: list[Any] = []
+        self._is_mute = False
+
+    def add(self, kernel: Any) -> None:
+        """Count a kernel of this package."""
+        self._kernels.append(kernel)
+
+    def mute(self) -> None:
+        """Say nothing, as in the service, which reports its progress itself."""
+        self._is_mute = True
+
+    def on_start(self, event: event.Event) -> None:
+        """Write the line when the first kernel of this package is compiled."""
+        if self._is_mute or event.data["dispatcher"] not in self._kernels:
+            return
+        self._is_mute = True
+        missing = sum(not kernel.stats.cache_hits for kernel in self._kernels)
+        seconds = max(1, round(SECONDS_EACH * missing))
+        line = f"tribodrive: compiling up to {missing} kernels, once after installation, about {seconds} s"
+        print(line, file=sys.stderr, flush=True)  # noqa: T201  meant for the user at the terminal
+
+    def on_end(self, event: event.Event) -> None:
+        """Say nothing."""
+
+
+announcement = Announcement()
+event.register("numba:compile", announcement)
+
+
 def _compiled(function: Callable[P, R], *, forceinline: bool = False) -> Callable[P, R]:
     keep = FOLDER is not None
     compiled = numba.njit(cache=keep, error_model="numpy", nogil=True, forceinline=forceinline)(function)
+    announcement.add(compiled)
     return cast("Callable[P, R]", compiled)

@@ -5,9 +5,11 @@ outdated machine code. The name of the folder is therefore a hash of all sources
 version: after every edit, numba uses a new folder. This module must be imported before the first kernel is decorated.
 """
 
+import getpass
 import logging
 import os
 import shutil
+import stat
 import tempfile
 from hashlib import sha256
 from pathlib import Path
@@ -46,7 +48,34 @@ def _writable(folder: Path) -> Path | None:
     return folder
 
 
-FOLDER = _writable(cache_base() / sha256(f"{package_digest()} {numba.__version__}".encode()).hexdigest()[:24])
+def _own_folder(name: str, existing: Path) -> Path | None:
+    """Return a folder of this user in the folder for temporary files, with the kernels of a folder that is read-only.
+
+    Kernels are pickled objects, so a folder of another user is never used.
+    """
+    base = Path(tempfile.gettempdir()) / f"tribodrive-{getpass.getuser()}"
+    try:
+        base.mkdir(mode=0o700, exist_ok=True)
+        status = base.lstat()
+        if not stat.S_ISDIR(status.st_mode) or status.st_mode & 0o077 or status.st_uid != os.getuid():
+            return None
+        if existing.is_dir() and not (base / name).exists():
+            private = Path(tempfile.mkdtemp(dir=base))
+            shutil.copytree(existing, private, dirs_exist_ok=True)
+            private.rename(base / name)
+    except OSError as error:
+        logger.warning("compiled kernels are not copied: %s", error)
+    return _writable(base / name)
+
+
+def _folder() -> Path | None:
+    """Return the folder for compiled kernels, or None if they can be kept in memory only."""
+    name = sha256(f"{package_digest()} {numba.__version__}".encode()).hexdigest()[:24]
+    existing = cache_base() / name
+    return _writable(existing) or (_own_folder(name, existing) if os.name == "posix" else None)
+
+
+FOLDER = _folder()
 """The folder in use; None if compiled kernels are kept in memory only."""
 
 if FOLDER is not None:

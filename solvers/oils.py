@@ -6,15 +6,19 @@ use a `Lubricant`, which `OilSheet.lubricant` computes for the temperature at wh
 
 from dataclasses import dataclass
 from math import log, log10
-from typing import Literal, get_args
+from typing import Literal, TypeVar, get_args
 
 from scipy.optimize import brentq
 
+from solvers.arrays import FloatArray
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant, OilKind, PressureViscosityLaw
 from solvers.quantity import described, quantity, record
 
+Temperature = TypeVar("Temperature", float, FloatArray)
+
 SQUARE_MILLIMETRE = 1e-6  # m^2
+ROUNDED_ZERO = 273.0  # K, zero of the Celsius scale in ISO/TR 15144-1; the exact zero is 273.15 K
 LEAST_VISCOSITY = 2.0
 """Smallest kinematic viscosity at 100 C [mm^2/s] for which the standard defines the viscosity index."""
 
@@ -170,6 +174,12 @@ KINDS: dict[OilKind, KindOfOil] = {
 _THICK, _THIN = "lubricant.kinematic_viscosity_40", "lubricant.kinematic_viscosity_100"
 
 
+def over_coefficient_at_38(temperature: Temperature) -> Temperature:
+    """Pressure-viscosity coefficient at a temperature [K] over that at 38 C (Eq. M3); 0 above 510 C."""
+    value = 1.0 + 516.0 * (1.0 / (temperature - CELSIUS + ROUNDED_ZERO) - 1.0 / (38.0 + ROUNDED_ZERO))
+    return value * (value > 0.0)
+
+
 @record
 class OilSheet:
     """An oil, described by its data sheet.
@@ -206,6 +216,17 @@ class OilSheet:
     )
     pressure_viscosity: float | None = described(
         "Pressure-viscosity coefficient of Barus; None: by kind and viscosity, after Gold [1/Pa].", default=None
+    )
+    pressure_viscosity_38: float | None = quantity(
+        "pressure-viscosity coefficient at 38 °C",
+        "α_38",
+        "ISO/TR 15144-1",
+        unit="per_gpa",
+        default=None,
+        ge=1,
+        le=60,
+        text="converted to the temperature where the oil enters",
+        default_text="by kind and viscosity",
     )
     temperature_viscosity: float | None = described(
         "Temperature-viscosity coefficient of Reynolds; None: the slope of the Walther law [1/K].", default=None
@@ -349,7 +370,7 @@ class OilSheet:
         return float(thinning + expansion)
 
     def pressure_coefficient(self, temperature: float) -> float:
-        """Compute Gold's pressure-viscosity coefficient, or return the coefficient in the data sheet if there is one.
+        """Compute Gold's pressure-viscosity coefficient, or use the coefficient in the data sheet if there is one.
 
         Parameters
         ----------
@@ -363,10 +384,13 @@ class OilSheet:
 
         Notes
         -----
-        Eq. R4: alpha = s nu^t in 1/GPa, with the kinematic viscosity nu in mm^2/s. `KindOfOil` states s and t.
+        Eq. R4: alpha = s nu^t in 1/GPa, with the kinematic viscosity nu in mm^2/s. `KindOfOil` states s and t. A
+        coefficient at 38 C is converted by Eq. M3.
         """
         if self.pressure_viscosity is not None:
             return self.pressure_viscosity
+        if self.pressure_viscosity_38 is not None:
+            return float(self.pressure_viscosity_38 * over_coefficient_at_38(temperature))
         kind = KINDS[self.kind]
         thickness = self.kinematic_viscosity(temperature) / SQUARE_MILLIMETRE
         return float(kind.pressure_viscosity_scale * thickness**kind.pressure_viscosity_exponent) * 1e-9

@@ -3,6 +3,8 @@
 Results have six significant digits; the JSON answer has all digits.
 """
 
+from collections.abc import Iterable
+from dataclasses import replace
 from itertools import product, zip_longest
 from typing import Any
 
@@ -10,7 +12,7 @@ from app.errors import Unprocessable
 from app.pages.cases import Case
 from app.pages.results import entries, flattened
 from app.pages.typed import text_of
-from app.schema.fields import Leaf, leaf_at, leaves
+from app.schema.fields import ITEM, Leaf, leaf_at, leaves
 from app.schema.model import Response
 from app.spreadsheet import csv_of
 from app.studies.fields import value_at
@@ -66,7 +68,13 @@ def curve(response: Response, path: str) -> bytes:
     Raises Unprocessable if there is no curve and no map at this path.
     """
     model = type(response)
-    wanted = [leaf for leaf in leaves(model) if leaf.dimensions and f"{leaf.path}.".startswith(f"{path}.")]
+    indices = [part for part in path.split(".") if part.isdecimal()]
+    pattern = ".".join(ITEM if part.isdecimal() else part for part in path.split("."))
+    wanted = [
+        replace(leaf, path=_placed(leaf.path, indices), axes=tuple(_placed(axis, indices) for axis in leaf.axes))
+        for leaf in leaves(model)
+        if leaf.dimensions and f"{leaf.path}.".startswith(f"{pattern}.")
+    ]
     contents = {leaf.path: content for leaf in wanted if (content := value_at(response, leaf.path))}
     shape = max((leaf.dimensions for leaf in wanted if leaf.path in contents), default=0)
     if shape == 0:
@@ -75,10 +83,10 @@ def curve(response: Response, path: str) -> bytes:
         )
     chosen = [leaf for leaf in wanted if leaf.path in contents and leaf.dimensions == shape]
     names = dict.fromkeys(name for leaf in chosen for name in leaf.axes)
-    axes = [axis for name in names if (axis := leaf_at(model, name))]
+    axes = [replace(axis, path=name) for name in names if (axis := leaf_at(model, name))]
     columns: list[Leaf]
     if shape == 1:
-        columns = [*axes, *(leaf for leaf in chosen if leaf not in axes)]
+        columns = [*axes, *(leaf for leaf in chosen if leaf.path not in names)]
         lines: Any = zip_longest(*(value_at(response, leaf.path) for leaf in columns))
     else:
         columns = [*axes[:2], *chosen]
@@ -87,3 +95,9 @@ def curve(response: Response, path: str) -> bytes:
         lines = ((*point, *at_point) for point, *at_point in zip(points, *maps, strict=True))
     header = [f"{' '.join(filter(None, (leaf.title, leaf.declared.symbol)))} [{leaf.unit or '-'}]" for leaf in columns]
     return csv_of([header, *lines], DIGITS)
+
+
+def _placed(path: str, indices: Iterable[str]) -> str:
+    """Return the path of an item: the first items of lists in `path` are those with the `indices`."""
+    left = iter(indices)
+    return ".".join(next(left, part) if part == ITEM else part for part in path.split("."))

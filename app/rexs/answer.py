@@ -1,7 +1,9 @@
 """What a worker makes from the file of a gear unit: the answer of /v1/rexs, a page, or the file with added results."""
 
 import json
+from collections.abc import Callable
 from hashlib import sha256
+from pathlib import Path
 from typing import Annotated, Any
 
 from pydantic import BaseModel
@@ -76,6 +78,11 @@ class GearUnit(BaseModel):
     findings: Annotated[list[Fault], Output("faults of the file")]
 
 
+def of_file(path: str, function: Callable[..., Any], *arguments: Any) -> Any:
+    """Call `function` with the content of an uploaded file, which is read by the worker that needs it."""
+    return function(Path(path).read_bytes(), *arguments)
+
+
 def unit_of(content: bytes, most_bytes: int) -> dict[str, Any]:
     """Return the answer of /v1/rexs. Raises Unprocessable if the file is not a readable REXS file."""
     return gear_unit(read(content, most_bytes).model)
@@ -86,7 +93,7 @@ def unit_json(content: bytes, most_bytes: int) -> bytes:
     return json.dumps(unit_of(content, most_bytes), allow_nan=False, ensure_ascii=False).encode()
 
 
-def unit_html(root: str, content: bytes, most_bytes: int, name: str = "") -> bytes:
+def unit_html(content: bytes, root: str, most_bytes: int, name: str = "") -> bytes:
     """Return the answer of /v1/rexs as a page. `root` is the prefix of all links; `name` is the name of the file."""
     return unit_page(root, unit_of(content, most_bytes), name, sha256(content).hexdigest()).encode()
 

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from app.rexs import table
 from app.rexs.model import Component
 from app.rexs.reading import Vector
-from app.rexs.stages import StageDraft
+from app.rexs.stages import ROLES, StageDraft
 
 MOST_PIECES = 10  # largest number of cylinders that replace a cone; a request allows 40 sections per shaft
 LONGEST_PIECE = 10.0  # mm; largest length of a cylinder that replaces a part of a cone, if MOST_PIECES are enough
@@ -58,7 +58,15 @@ def _obstacles(stage: StageDraft) -> Iterator[tuple[Component, str]]:
         if stage.face_interval(place) is None:
             yield gear, "the file does not say at which position of the shaft the gear sits"
     if stage.driver is None or not stage.flow.knows(stage.pair):
-        yield stage.stage, "the file does not determine the power and the speed of this stage"
+        hidden = stage.stage.id in stage.flow.hidden
+        yield (
+            stage.stage,
+            (
+                "the power and the speed of this stage are determined through a stage that is not modelled"
+                if hidden
+                else "the file does not determine the power and the speed of this stage"
+            ),
+        )
 
 
 def bearings_of(stage: StageDraft, shaft: Component) -> list[Component]:
@@ -104,7 +112,7 @@ class _DriveTrain:
                 return False
         for shaft in stage.shafts:
             for part in self._reading.model.related("side", "inner_part", shaft.id, "assembly"):
-                if part.type in {"coupling", "switchable_coupling"}:
+                if part.type in table.JOINTS:
                     stage.lacks(
                         "couplings", part, None, "the file has no tooth data of the coupling; the coupling is left out"
                     )
@@ -221,25 +229,24 @@ class _DriveTrain:
         return joined
 
     def _under_teeth(self, place: int, sections: list[Section], face_start: float) -> list[Section]:
-        """Enlarge the sections under the teeth to the reference diameter, as ISO 6336-1 does for pinion shafts."""
+        """Enlarge the sections under the teeth to the diameter that carries torsion, d - m h_fP*."""
         gear, width = self._stage.involute(place), self._stage.fields.get(table.FACE_WIDTH.field)
         if gear is None or width is None:
             return sections
+        solid = gear.reference_diameter - gear.module * self._stage.fields[f"gears.{ROLES[place]}.dedendum"]
         ends = (face_start, face_start + width)
         changed, cylinders = False, []
         for begin, end, outer, inner in sections:
             cuts = sorted({begin, end, *(face_end for face_end in ends if begin < face_end < end)})
             for low, high in pairwise(cuts):
                 covered = low >= ends[0] - SHORTEST_SECTION and high <= ends[1] + SHORTEST_SECTION
-                grown = covered and outer < gear.reference_diameter
+                grown = covered and outer < solid
                 changed |= grown
                 if high - low >= SHORTEST_SECTION:
-                    cylinders.append(Section(low, high, gear.reference_diameter if grown else outer, inner))
+                    cylinders.append(Section(low, high, solid if grown else outer, inner))
         if changed:
-            reason = (
-                "the outer diameter of the shaft under the teeth is set to the reference diameter, as in ISO 6336-1"
-            )
-            self._stage.note(f"{NAMES[place]}.sections", gear.reference_diameter, reason)
+            reason = "under the teeth the shaft has the diameter that carries torsion, d - m h_fP*"
+            self._stage.note(f"{NAMES[place]}.sections", solid, reason)
         return cylinders
 
     def _bearing(self, bearing: Component, position: float | None, shaft: Component, path: str) -> dict[str, Any]:

@@ -27,14 +27,18 @@ class Lubrication:
             self._reading.find("grease", oil, "kind", "greases are not modelled; the lubricant in the file is not used")
             self._stage.lacks("lubricant", oil, "kind", "without an oil there is no film and no scuffing safety")
             return
-        viscosities = table.OIL[:2]
-        if None in [self._reading.number(oil, row) for row in viscosities]:
-            self._stage.lacks(
-                "lubricant", oil, viscosities[0].name, "the viscosities of the oil at 40 and 100 °C are needed"
-            )
+        thick = table.OIL[0]
+        if self._reading.number(oil, thick) is None:
+            elsewhere = self._reading.is_elsewhere(oil)
+            why = "; the oil is in another file, which is not read" if elsewhere else ""
+            self._stage.lacks("lubricant", oil, thick.name, f"the viscosity of the oil at 40 °C is needed{why}")
             return
         for row in table.OIL:
             self._stage.take(row, oil, "lubricant.")
+        at_bulk = "lubricant.pressure_viscosity_per_gpa" in self._stage.fields
+        if not at_bulk and (alpha := self._stage.take(table.PRESSURE_VISCOSITY_38, oil)) is not None:
+            reason = "holds at 38 °C; it is converted to the temperature of the contact by ISO/TR 15144-1, Eq. 8"
+            self._stage.note(table.PRESSURE_VISCOSITY_38.field, alpha, reason)
         self._base_oil(oil)
 
     def _base_oil(self, oil: Component) -> None:
@@ -48,7 +52,11 @@ class Lubrication:
             texts[name] = self._reading.text(oil, name)
         texts["component"] = oil.name.lower()
         vague: str | None = None
-        for name, text in texts.items():
+        for name, stated in texts.items():
+            text = stated.replace("-", "_").replace(" ", "_")
+            if not any(part in text for part in table.NOT_SOLUBLE) and any(part in text for part in table.OTHER_OILS):
+                vague = stated
+                break
             word = next((part for part in table.BASE_OILS if part in text), None)
             if word is None:
                 continue
@@ -56,7 +64,7 @@ class Lubrication:
             if kind is not None:
                 self._stage.put(path, kind, oil, name)
                 return
-            vague = vague or text
+            vague = vague or stated
             if name in table.OIL_TYPES:
                 break
         if vague is None:

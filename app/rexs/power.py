@@ -1,9 +1,9 @@
 """Speeds and torques of all shafts, computed from the values in the file. Losses of the meshes are neglected.
 
-Shafts that are joined by a coupling turn as one shaft. In a cylindrical stage, n_1 z_1 = -n_2 z_2, with the speed n and
-the number of teeth z. The mesh loads both gears with torques of the same sign, in the ratio z_1 : z_2. The torques on a
-shaft add up to zero. If the unit does not split the power, these equations can be solved one after another, because at
-each step there is an equation with a single unknown.
+Shafts that are joined by a coupling turn as one shaft (see `links`). In a cylindrical stage, n_1 z_1 = -n_2 z_2, with
+the speed n and the number of teeth z. The mesh loads both gears with torques of the same sign, in the ratio z_1 : z_2.
+The torques on a shaft add up to zero. If the unit does not split the power, these equations can be solved one after
+another, because at each step there is an equation with a single unknown.
 """
 
 from collections import defaultdict
@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from math import isfinite, nan
 from typing import NamedTuple
 
+from app.rexs.links import Groups, Link, fastened, joints, links, members_of
 from app.rexs.model import Component, LoadCase
 from app.rexs.reading import Reading
 from app.rexs.table import REVOLUTION_PER_MINUTE
@@ -31,18 +32,24 @@ class Pair(NamedTuple):
     teeth: tuple[int, int]
 
 
+Mesh = Pair | Link
+
+
 @dataclass
 class Flow:
     """Speeds of shafts and torques of meshes, as far as these values follow from the file.
 
     `reading` reads the part of the file that states the load: the model, or one of its load cases. `speed` maps each
     shaft to its speed [1/min]. `mesh_torque` maps each stage to the torques [N m] with which the mesh loads gear 1 and
-    gear 2. Speeds and torques are about the u axes of the shafts.
+    gear 2. Speeds and torques are about the u axes of the shafts. `through` says through which stages of other kinds
+    the load of a stage was followed. `hidden` has the stages whose load depends on a stage that is not modelled.
     """
 
     reading: Reading
     speed: dict[int, float] = field(default_factory=dict)
     mesh_torque: dict[int, tuple[float, float]] = field(default_factory=dict)
+    through: dict[int, set[str]] = field(default_factory=dict)
+    hidden: set[int] = field(default_factory=set)
 
     def knows(self, pair: Pair) -> bool:
         """Return True if torque and speed of a stage are known."""
@@ -66,10 +73,7 @@ class Flow:
 
 
 class Train:
-    """The shafts of a unit, and the meshes between the shafts. Shafts that turn as one shaft form a group.
-
-    Speeds and torques of groups are about the axis of the unit (see `Reading.sense`).
-    """
+    """The shafts of a unit, and the meshes between the shafts."""
 
     def __init__(self, reading: Reading, pairs: list[Pair]) -> None:
         self._reading, self._pairs = reading, pairs
@@ -81,43 +85,66 @@ class Train:
             )
             reading.find("too_many_shafts", None, None, message)
             self._shafts, self._pairs = [], []
-        self._group = self._groups()
-        self._elsewhere = self._not_modelled()
-        # For each group, its meshes and the position (0 or 1) of the group's gear in the pair of each mesh.
-        self._at: dict[int, list[tuple[Pair, int]]] = defaultdict(list)
-        for pair in self._pairs:
-            for place, shaft in enumerate(pair.shafts):
-                self._at[self._group[shaft.id]].append((pair, place))
+        self._parts = fastened(reading, self._shafts)
+        self._joints = list(joints(reading)) if self._shafts else []
 
     def flow(self, case: LoadCase | None = None) -> Flow:
         """Return the speeds and torques in a load case, or in the model itself if `case` is None."""
         reading = self._reading.in_case(case)
+        return _State(reading, self._shafts, self._pairs, Groups(reading, self._parts, self._joints)).flow()
+
+
+class _State:
+    """The train in one load case. Speeds and torques of groups are about the axis of the unit (`Reading.sense`)."""
+
+    def __init__(self, reading: Reading, shafts: list[Component], pairs: list[Pair], groups: Groups) -> None:
+        self._reading, self._shafts, self._pairs = reading, shafts, pairs
+        self._group = {shaft.id: groups.of(shaft.id) for shaft in shafts}
+        passing = list(links(reading, groups)) if shafts else []
+        self._unknown = self._not_modelled(passing, groups)
+        # For each group, its meshes and the position (0 or 1) of the group's gear in the pair or link of each mesh.
+        self._at: dict[int, list[tuple[Mesh, int]]] = defaultdict(list)
+        ends: list[tuple[Mesh, tuple[Component, Component]]] = [
+            *((pair, pair.gears) for pair in pairs),
+            *((link, link.shafts) for link in passing),
+        ]
+        for mesh, (first, second) in ends:
+            for place, end in enumerate((first, second)):
+                self._at[groups.of(end.id)].append((mesh, place))
+        self._ends = {mesh.stage.id: (groups.of(first.id), groups.of(second.id)) for mesh, (first, second) in ends}
+        self._through: dict[int, set[str]] = defaultdict(set)  # groups and stages behind links, with the reasons
+
+    def flow(self) -> Flow:
+        reading = self._reading
         speeds = self._speeds(reading)
         flow = Flow(reading)
         for shaft in self._shafts:
             speed = speeds.get(self._group[shaft.id], nan)
             if isfinite(speed):
-                flow.speed[shaft.id] = speed * self._reading.sense(shaft)
+                flow.speed[shaft.id] = speed * reading.sense(shaft)
         forces = self._forces(speeds, reading)
         for pair in self._pairs:
             force = forces.get(pair.stage.id, nan)
-            first, second = (pair.teeth[place] * force * self._reading.sense(pair.shafts[place]) for place in (0, 1))
+            first, second = (pair.teeth[place] * force * reading.sense(pair.shafts[place]) for place in (0, 1))
             if isfinite(first) and isfinite(second):
                 flow.mesh_torque[pair.stage.id] = first, second
+            flow.through[pair.stage.id] = self._through[pair.stage.id].union(
+                *(self._through[group] for group in self._ends[pair.stage.id])
+            )
+        flow.hidden = {stage for stage in self._hidden() if stage not in flow.mesh_torque}
         return flow
 
-    def _groups(self) -> dict[int, int]:
-        """Map each shaft to its group. The name of a group is the id of one of the shafts in the group."""
-        model = self._reading.model
-        group = {shaft.id: shaft.id for shaft in self._shafts}
-        for relation in model.relations if group else ():
-            coupling = model.part(relation, "assembly")
-            if relation.type == "side" and coupling is not None and coupling.type in {"coupling", "fixed_coupling"}:
-                ends = [relation.part(role) for role in ("inner_part", "outer_part")]
-                joined = [group[end] for end in ends if end in group]
-                if len(joined) == len(ends) and joined[0] != joined[1]:
-                    group = {shaft: joined[0] if own == joined[1] else own for shaft, own in group.items()}
-        return group
+    def _hidden(self) -> set[int]:
+        """Return the stages that are connected, through meshes, to a stage that is not modelled."""
+        reached, waiting, stages = set(self._unknown), list(self._unknown), set[int]()
+        while waiting:
+            for mesh, place in self._at[waiting.pop()]:
+                stages.add(mesh.stage.id)
+                other = self._ends[mesh.stage.id][1 - place]
+                if other not in reached:
+                    reached.add(other)
+                    waiting.append(other)
+        return stages
 
     def _speeds(self, reading: Reading) -> dict[int, float]:
         """Return the speeds [1/min] of the groups about the axis of the unit. Unknown speeds are left out."""
@@ -147,13 +174,14 @@ class Train:
         Speeds that are already set are not changed.
         """
         speeds[group] = speed
-        for pair, place in self._at[group]:
-            other = self._group[pair.shafts[1 - place].id]
+        for mesh, place in self._at[group]:
+            other = self._ends[mesh.stage.id][1 - place]
             if other not in speeds:
-                self._spread(other, -speed * pair.teeth[place] / pair.teeth[1 - place], speeds)
+                self._through[other] |= self._through[group] | ({mesh.reason} if isinstance(mesh, Link) else set())
+                self._spread(other, -speed * mesh.teeth[place] / mesh.teeth[1 - place], speeds)
 
     def _forces(self, speeds: dict[int, float], reading: Reading) -> dict[int, float]:
-        """Return, for each mesh, the torque on a gear divided by the gear's number of teeth [N m].
+        """Return, for each mesh or link, the torque on a gear divided by the gear's number of teeth [N m].
 
         Both gears of a mesh have the same quotient. If the torques of a mesh do not follow from the file, the mesh is
         left out.
@@ -163,14 +191,23 @@ class Train:
         waiting = list(self._at) if torques else []
         while waiting:
             group = waiting.pop()
-            unknown = [(pair, place) for pair, place in self._at[group] if pair.stage.id not in forces]
+            unknown = [(mesh, place) for mesh, place in self._at[group] if mesh.stage.id not in forces]
             if len(unknown) != 1 or group in opened:
                 continue
-            here = ((pair.stage.id, pair.teeth[place]) for pair, place in self._at[group])
-            carried = sum(forces[stage] * teeth for stage, teeth in here if stage in forces)
-            pair, place = unknown[0]
-            forces[pair.stage.id] = -(torques.get(group, 0.0) + carried) / pair.teeth[place]
-            waiting.append(self._group[pair.shafts[1 - place].id])
+            known = [(mesh, place) for mesh, place in self._at[group] if mesh.stage.id in forces]
+            carried = sum(forces[mesh.stage.id] * mesh.teeth[place] for mesh, place in known)
+            mesh, place = unknown[0]
+            force = -(torques.get(group, 0.0) + carried) / mesh.teeth[place]
+            if force == 0.0 and 0.0 not in torques.values():
+                if isinstance(mesh, Pair):
+                    message = "no torque passes through this stage by the loads of the file; it is taken as not known"
+                    reading.find("zero_torque", mesh.stage, None, message)
+                continue
+            forces[mesh.stage.id] = force
+            for other, _ in known:
+                reasons = {other.reason} if isinstance(other, Link) else set()
+                self._through[mesh.stage.id] |= self._through[other.stage.id] | reasons
+            waiting.append(self._ends[mesh.stage.id][1 - place])
         return forces
 
     def _loads(self, speeds: dict[int, float], reading: Reading) -> tuple[dict[int, float], set[int]]:
@@ -181,7 +218,7 @@ class Train:
         If there are no such groups either, the balance is not used where a stated torque takes power out of the unit.
         """
         torques: dict[int, float] = defaultdict(float)
-        opened, leaving = set(self._elsewhere), set()
+        opened, leaving = set(self._unknown), set[int]()
         for shaft in self._shafts:
             group = self._group[shaft.id]
             for load in reading.model.parts_of(shaft.id):
@@ -200,14 +237,22 @@ class Train:
             opened = (ends - torques.keys()) or leaving
         return torques, opened
 
-    def _not_modelled(self) -> set[int]:
-        """Return the groups that have gears in stages that are not modelled. The torques of such stages are unknown."""
-        model, modelled = self._reading.model, {pair.stage.id for pair in self._pairs}
-        stages = (relation for relation in model.relations if relation.type == "stage")
-        others = (relation for relation in stages if relation.part("stage") not in modelled)
-        parts = (part for relation in others for role, part in relation.parts if role != "stage")
-        shafts = (model.whole_of(part, "shaft") for part in parts)
-        return {self._group[shaft.id] for shaft in shafts if shaft is not None and shaft.id in self._group}
+    def _not_modelled(self, passing: list[Link], groups: Groups) -> set[int]:
+        """Return the groups that take part in stages that are not modelled. The torques of such stages are unknown."""
+        model = self._reading.model
+        followed = {pair.stage.id for pair in self._pairs} | {link.stage.id for link in passing}
+        followed |= {part.id for link in passing for part in model.parts_of(link.stage.id)}
+        others = [stage for type_, stages in model.by_type.items() if type_.endswith("_stage") for stage in stages
+                  if stage.id not in followed]  # fmt: skip
+        parts = [
+            part
+            for stage in others
+            for relation in model.relations_of("stage", "stage", stage.id)
+            for role, part in relation.parts
+            if role != "stage"
+        ]
+        parts += [shaft.id for stage in others for _, shaft in members_of(self._reading, stage)]
+        return {groups.of(part) for part in parts}
 
     def _stated_torque(self, load: Component, shaft: Component, speed: float | None, reading: Reading) -> float | None:
         """Return the torque [N m] of an external load about the axis of the unit, or None if the torque is not known.

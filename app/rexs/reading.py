@@ -17,12 +17,13 @@ from pydantic import BaseModel
 from app.calculations import BY_PATH
 from app.errors import InvalidBody
 from app.rexs.model import Attribute, Component, LoadCase, Model
-from app.rexs.table import APPLICATION_FACTOR, IGNORED, SCUFFING_FACTOR, Row, convert
+from app.rexs.table import APPLICATION_FACTOR, EXTERNAL, IGNORED, SCUFFING_FACTOR, Row, convert
 from app.schema.quantities import Output
 from app.schema.reading import validated
 
 LARGEST = 1e30  # largest absolute value of an accepted number; sums and products of such numbers stay finite
 DIGITS = 7
+PARALLEL = 0.9  # axes of shafts with a larger cosine between them count as parallel; chosen
 SCUFFING = "/v1/scuffing"
 MESH = {"gears", "load", "materials", "modifications", "friction_coefficient"}
 SECTIONS = {
@@ -168,6 +169,21 @@ class Reading:
         text = "" if attribute is None else str(attribute.value).lower()
         return {"true": True, "1": True, "false": False, "0": False}.get(text)
 
+    def is_elsewhere(self, component: Component | None) -> bool:
+        """Return whether a component refers to data in another file (REXS 1.5 and later)."""
+        return component is not None and any(
+            (attribute := component.attributes.get(name)) is not None and attribute.value not in (None, "")
+            for name in EXTERNAL
+        )
+
+    def flags(self, component: Component, name: str) -> list[bool]:
+        """Return the boolean values of an attribute, which may be a single value; empty if there are none."""
+        attribute = self._attribute(component, name)
+        values = (
+            [] if attribute is None else attribute.value if isinstance(attribute.value, list) else [attribute.value]
+        )
+        return [str(value).lower() in {"true", "1"} for value in values]
+
     def vector(self, component: Component, name: str) -> Vector | None:
         """Return the vector in an attribute, or None if the file has no such vector. Lengths are converted to mm."""
         attribute = self._attribute(component, name)
@@ -199,17 +215,22 @@ class Reading:
     def sense(self, shaft: Component) -> float:
         """Return the direction of a shaft's u axis: +1 along the axis of the unit, -1 against the axis of the unit.
 
-        The axis of the unit is the u axis of the first shaft whose position the file states. Return +1 for a shaft
-        whose position is not stated.
+        The axis of the unit is the u axis of the first shaft whose position the file states, or the first such shaft in
+        about the same direction (behind a bevel stage). Return +1 for a shaft whose position is not stated.
         """
         return self._senses.get(shaft.id, 1.0)
 
     @cached_property
     def _senses(self) -> dict[int, float]:
         axes = {shaft.id: axis.direction for shaft in self.model.by_type["shaft"] if (axis := self.axis(shaft))}
-        base = next(iter(axes.values()), (0.0, 0.0, 0.0))
-        cosines = {id_: sum(a * b for a, b in zip(axis, base, strict=True)) for id_, axis in axes.items()}
-        return {id_: 1.0 if cosine >= 0.0 else -1.0 for id_, cosine in cosines.items()}
+        bases, senses = list[Vector](), dict[int, float]()
+        for id_, direction in axes.items():
+            cosines = (sum(a * b for a, b in zip(direction, base, strict=True)) for base in bases)
+            cosine = next((cosine for cosine in cosines if abs(cosine) > PARALLEL), None)
+            if cosine is None:
+                bases.append(direction)
+            senses[id_] = -1.0 if cosine is not None and cosine < 0.0 else 1.0
+        return senses
 
     def ignored(self, components: Iterable[Component]) -> Iterator[Unused]:
         """Yield the attributes of `components` that have not been read, each with the reason why it is not used."""

@@ -4,6 +4,7 @@ from collections.abc import Iterable, Iterator
 from math import acos, asin, atan, cos, degrees, pi, radians, sin, sqrt, tan
 
 from app.rexs import table
+from app.rexs.links import shaft_of
 from app.rexs.model import Component
 from app.rexs.power import Flow, Pair
 from app.rexs.reading import Draft, Reading
@@ -40,7 +41,7 @@ def _pair(reading: Reading, stage: Component) -> Pair | None:
     teeth = _teeth(reading, stage, first), _teeth(reading, stage, second)
     if teeth[0] is None or teeth[1] is None:
         return None
-    shafts = _shaft_of(reading, first), _shaft_of(reading, second)
+    shafts = shaft_of(reading, first), shaft_of(reading, second)
     if shafts[0] is None or shafts[1] is None or shafts[0].id == shafts[1].id:
         reading.find(
             "relation_missing", stage, None, "the two gears do not sit on two different shafts; the stage is left out"
@@ -64,12 +65,6 @@ def _teeth(reading: Reading, stage: Component, gear: Component) -> int | None:
         reading.find("teeth", gear, "number_of_teeth", "the number of teeth is not permissible; the stage is left out")
         return None
     return int(number)
-
-
-def _shaft_of(reading: Reading, gear: Component) -> Component | None:
-    """Return the shaft that has the gear as a part, or else the shaft to which a coupling fastens the gear."""
-    partners = reading.model.related("side", "outer_part", gear.id, "inner_part")
-    return reading.model.whole_of(gear.id, "shaft") or next((part for part in partners if part.type == "shaft"), None)
 
 
 def _gear_data(reading: Reading, pair: Pair, gear: Component) -> Iterator[Component]:
@@ -121,9 +116,21 @@ class StageDraft(Draft):
         self._axes()
         self._load()
         for place, role in enumerate(ROLES):
-            self.take(table.ROUGHNESS, self.gears[place], f"materials.{role}.")
+            self._roughness(place)
+            material = self.material(place)
             for row in (*table.MATERIAL, *table.HEAT):
-                self.take(row, self.material(place), f"materials.{role}.")
+                if self.take(row, material, f"materials.{role}.") is None and self.reading.is_elsewhere(material):
+                    message = "the value is in another file, which is not read; without it steel is calculated"
+                    self.lacks(f"materials.{role}.{row.field}", material, row.name, message)
+
+    def _roughness(self, place: int) -> None:
+        """Fill in the roughness Ra of a flank. If the file states only Rz, Ra = Rz/6 is assumed."""
+        prefix, gear = f"materials.{ROLES[place]}.", self.gears[place]
+        rz = self.reading.number(gear, table.MEAN_PEAK_TO_VALLEY)
+        if self.take(table.ROUGHNESS, gear, prefix) is None and rz is not None:
+            path, ra = prefix + table.ROUGHNESS.field, rz * table.RA_OF_RZ
+            self.put(path, ra, gear, table.MEAN_PEAK_TO_VALLEY.name)
+            self.note(path, ra, f"Ra = Rz/6, because the file states only Rz, {rz:.4g} µm")
 
     def _driver(self) -> int | None:
         """Return the position of the driving gear in `pair`, or None if the driving gear is not known.
@@ -153,16 +160,6 @@ class StageDraft(Draft):
     def gear_data(self, place: int) -> Iterator[Component]:
         """Yield the components that hold data of the pinion (0) or the wheel (1) in this stage."""
         return _gear_data(self.reading, self.pair, self.gears[place])
-
-    @property
-    def load_sources(self) -> set[int]:
-        """The ids of the gear unit, the shafts and the external loads.
-
-        In a load case, the attributes of these components are only torques, speeds and shares of time.
-        """
-        model = self.reading.model
-        sources = (model.first("gear_unit"), *model.by_type["shaft"], *model.by_type["external_load"])
-        return {source.id for source in sources if source is not None}
 
     def tool(self, place: int) -> Component | None:
         """Return the rack-shaped tool that cuts a gear, or None if the file does not state such a tool."""
@@ -424,7 +421,9 @@ class StageDraft(Draft):
             self._assume_rack(place, "dedendum")
 
     def _assume_rack(self, place: int, name: str) -> None:
-        path = f"gears.{ROLES[place]}.{name}"
+        path, tool = f"gears.{ROLES[place]}.{name}", self.tool(place)
+        if name == "dedendum" and self.reading.is_elsewhere(tool):
+            self.lacks(path, tool, table.TOOL_ADDENDUM.name, "the tool is in another file, which is not read")
         self.assume(path, ISO_53_A[name], f"the file gives no {name}; the value of ISO 53, profile A, is used")
 
     def _of_tool(self, tool: Component | None, row: table.Row, length_row: table.Row) -> float | None:
@@ -606,8 +605,13 @@ class StageDraft(Draft):
                 value, component = values[0]
                 self.put(row.field, abs(value), component, row.name)
                 self.note(row.field, abs(value), f"the {what} that the file states for the gear")
+            elif self.pair.stage.id in self.flow.hidden:
+                message = f"the {what} of this stage is determined through a stage that is not modelled"
+                self.lacks(row.field, self.shafts[0], None, message)
             else:
                 self.lacks(row.field, self.shafts[0], None, f"the file does not determine the {what} of this stage")
+            if row.field in load and (reasons := self.flow.through.get(self.pair.stage.id)):
+                self.note(row.field, load[row.field], "; ".join(sorted(reasons)))
         if self.driver is None:
             self.note(
                 "gears.pinion",

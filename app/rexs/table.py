@@ -110,15 +110,16 @@ OIL = (
     Row("density_15_kg_per_m3", ("density_at_15_degree_celsius",), "kg/m^3"),
     Row(
         "pressure_viscosity_per_gpa",
-        (
-            "pressure_viscosity_coefficient_agma_925_2003",
-            "pressure_viscosity_coefficient_agma_925_a03",
-            "pressure_viscosity_coefficient_at_38_degrees_celsius",
-        ),
+        ("pressure_viscosity_coefficient_agma_925_2003", "pressure_viscosity_coefficient_agma_925_a03"),
         "1/GPa",
     ),
     *HEAT,
 )
+PRESSURE_VISCOSITY_38 = Row(
+    "lubricant.pressure_viscosity_38_per_gpa", ("pressure_viscosity_coefficient_at_38_degrees_celsius",), "1/GPa"
+)
+EXTERNAL = ("data_source", "referenced_component_id")
+"""Attributes that refer to data in another file."""
 MODULE = Row("gears.module_mm", ("normal_module",), "mm")
 TRANSVERSE_MODULE = Row("gears.module_mm", ("transverse_module",), "mm")
 FACE_WIDTH = Row("gears.face_width_mm", ("face_width",), "mm")
@@ -153,6 +154,10 @@ ROUGHNESS = Row(
     ),
     "um",
 )
+MEAN_PEAK_TO_VALLEY = Row(
+    "roughness_um", ("mean_peak_to_valley_roughness_flank_iso_4287_1997", "averaged_peak_to_valley_height_flank"), "um"
+)
+RA_OF_RZ = 1.0 / 6.0  # Ra over Rz of a ground flank; ISO 6336-2 converts so
 POSITION = Row("position_mm", ("u_coordinate_on_shaft", "u_coordinate_on_shaft_inner_side"), "mm")
 WIDTH = Row("width_mm", ("face_width", "width"), "mm")
 OIL_TEMPERATURE = Row(
@@ -201,7 +206,7 @@ JOURNAL = (
     Row("diameter_mm", ("inner_diameter",), "mm"),
     Row("width_mm", ("width",), "mm"),
     Row("radial_clearance_um", ("diameter_clearance_plain_bearing",), "um"),  # a diameter; half of it is used
-    Row("film_temperature_c", ("lubricant_feed_temperature",), "C"),
+    Row("feed_temperature_c", ("lubricant_feed_temperature",), "C"),
     Row("oil_flow_l_per_min", ("lubricant_flow_through_bearing",), "l/min"),
 )
 OIL_TYPES = (
@@ -211,14 +216,17 @@ OIL_TYPES = (
     "lubricant_type_agma_925_a03",
 )
 OIL_WORDS = ("basis", "kind", "name")
-BASE_OILS = {"phosphat": None, "traction": None, "silicon": None, "polyglycol": "polyglycol",
+OTHER_OILS = ("phosphat", "traction", "traktion", "silicon", "water_soluble", "wasserl")
+NOT_SOLUBLE = ("non_water_soluble", "nicht_wasserl")
+"""Words that identify oils that are not modelled, and words that begin as one of these but mean the contrary."""
+BASE_OILS = {"polyglycol": "polyglycol",
              "polyglykol": "polyglycol", "polyalkylen": "polyglycol", "pag_": "polyglycol", "pao": "pao",
              "polyalpha": "pao", "polyalfa": "pao",
              "ester": "ester", "mil_l_": "ester", "miner": "mineral", "synthetic": None, "biologic": None,
              "food": None}  # fmt: skip
 """Words that identify the base oil in files, and the base oil that each word means. Specific words come first.
 
-None marks an oil that is not modelled.
+None marks a word that leaves the kind of oil open.
 """
 BACKLASH = ("minimum_normal_backlash", "maximum_normal_backlash")
 TRANSVERSE_BACKLASH = ("minimum_transverse_backlash", "maximum_transverse_backlash")
@@ -249,6 +257,12 @@ OTHER_STAGES = {
     "general_stage": "stages without tooth data are not modelled",
 }
 ON_SHAFTS = ("shaft_section", "external_load")
+CASING, SWITCHABLE = "gear_casing", "switchable_coupling"
+GEARS = {"cylindrical_gear", "ring_gear", "bevel_gear", "worm_gear", "worm_wheel", "general_gear"}
+JOINED = {*GEARS, "shaft", "side_plate", CASING}
+JOINTS = {"coupling", "fixed_coupling", SWITCHABLE, "feather_key_connection", "involute_spline_connection",
+          "cylindrical_interference_fit", "tapered_interference_fit"}  # fmt: skip
+"""The types of the connections through which a torque goes; a switchable coupling only where it is engaged."""
 RADIAL_BEARINGS = (
     "hydrodynamic_radial_plain_bearing",
     "slide_bearing",
@@ -276,9 +290,9 @@ _RESULTS = (
     "speed|sliding|contact|nodes|meshing|strength|tangential)"
 )
 _ROWS = (
-    *STAGE, *MATERIAL, *HEAT, *OIL, MODULE, TRANSVERSE_MODULE, FACE_WIDTH, COMMON_WIDTH, PROFILE_SHIFT, FINISHED_SHIFT,
-    BASIC_ADDENDUM, BASIC_ADDENDUM_LENGTH, TIP_DIAMETER, ROOT_DIAMETER, ROUGHNESS, OIL_TEMPERATURE, BULK_TEMPERATURE,
-    FRICTION, GEAR_TORQUE, GEAR_SPEED,
+    *STAGE, *MATERIAL, *HEAT, *OIL, PRESSURE_VISCOSITY_38, MODULE, TRANSVERSE_MODULE, FACE_WIDTH, COMMON_WIDTH,
+    PROFILE_SHIFT, FINISHED_SHIFT, BASIC_ADDENDUM, BASIC_ADDENDUM_LENGTH, TIP_DIAMETER, ROOT_DIAMETER, ROUGHNESS,
+    MEAN_PEAK_TO_VALLEY, OIL_TEMPERATURE, BULK_TEMPERATURE, FRICTION, GEAR_TORQUE, GEAR_SPEED,
 )  # fmt: skip
 _TAKEN = {name for row in _ROWS for name in row.attributes}
 _TAKEN |= {*BACKLASH, *TRANSVERSE_BACKLASH, *OIL_TYPES, *OIL_WORDS, *OIL_SUPPLY, *FRICTION_METHODS, *MODIFICATIONS}
@@ -332,7 +346,7 @@ IGNORED = (
     (
         ".*",
         "chamfer|protuberance|edge_radius|topographical|facewidth_usable|peak_to_valley|valley_height|roughness.*root",
-        "chamfers, undercuts, measured flanks and roots are not modelled; of roughness only Ra is used",
+        "chamfers, undercuts, measured flanks and roots are not modelled; of roughness only that of flanks is used",
     ),
     (
         "cylindrical_.*|stage_gear_data|flank_geometry",

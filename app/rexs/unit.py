@@ -35,6 +35,10 @@ def gear_unit(model: Model) -> dict[str, Any]:
     """Return the answer of /v1/rexs about the gear unit of a REXS file."""
     reading = Reading(model)
     _check_relations(reading)
+    for component in model.components.values():
+        if reading.is_elsewhere(component):
+            message = "the component refers to another file, which is not read; only the values of this file are used"
+            reading.find("data_elsewhere", component, None, message)
     all_pairs = list(islice(pairs(reading), MOST_STAGES + 1))
     if len(all_pairs) > MOST_STAGES:
         message = f"the unit has more than {MOST_STAGES} stages; only the first stages are read"
@@ -103,9 +107,10 @@ def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], S
     # The fields of the sections in `MESH` come first, then the fields of oil and temperatures.
     paths = sorted({**stage.fields, **stage.missing}, key=lambda path: path.partition(".")[0] not in MESH)
     requests = {endpoint: stage.request(endpoint, paths) for endpoint in SECTIONS}
-    if add_drive_train(stage):
+    is_train = add_drive_train(stage)
+    if is_train:
         requests["/v1/drive-train"] = stage.request("/v1/drive-train", {**stage.fields, **stage.missing})
-    cases = _cases(stage, pair, flows)
+    cases = _cases(stage, pair, flows, is_train=is_train)
     askable = 0 < len(cases) <= MOST_SPECTRUM_CASES
     row = {
         "id": pair.stage.id,
@@ -179,11 +184,10 @@ class _Case(NamedTuple):
         return {place: rounded(self.changes[path]) for path, place in places.items() if place is not None}
 
 
-def _cases(stage: StageDraft, pair: Pair, flows: list[Flow]) -> list[_Case]:
+def _cases(stage: StageDraft, pair: Pair, flows: list[Flow], *, is_train: bool) -> list[_Case]:
     """Return the load cases of a stage. A load case changes torque and speed, and it may change further inputs."""
     cases = []
     shares, reason = _shares([flow.reading for flow in flows])
-    load_sources = stage.load_sources
     for flow, share in zip(flows, shares, strict=True):
         case = flow.reading.case
         if case is None:
@@ -196,18 +200,35 @@ def _cases(stage: StageDraft, pair: Pair, flows: list[Flow]) -> list[_Case]:
             )
             flow.reading.find("other_direction", pair.stage, None, message)
         changes: dict[str, Any] = stage.load(flow)
-        own = _draft_of(pair, flow, stage.order[0]) if case.attributes.keys() - load_sources else stage
+        own = _draft_of(pair, flow, stage.order[0])
+        if is_train:
+            add_drive_train(own)
         for path, value in own.fields.items():
             component, attribute = own.origins.get(path, (None, None))
             is_stated = component is not None and attribute is not None and flow.reading.says(component, attribute)
-            if path.startswith("modifications.") and not is_stated:
+            if path.startswith(("modifications.", "operation.rotation")) and not is_stated:
                 continue  # of the other flanks, if the load has another direction
             if path not in changes and (is_stated or stage.fields.get(path) != value):
-                changes[path] = value
+                changes |= dict(_differences(path, value, stage.fields.get(path)))
         cases.append(_Case(case.name, rounded(share), changes))
     if reason:
         stage.note("cases", None, reason)
     return cases
+
+
+def _differences(path: str, value: Any, base: Any) -> Iterator[tuple[str, Any]]:
+    """Yield the paths below `path` at which a value of a load case differs from the model's, and their values.
+
+    An override cannot change the number of items of a list.
+    """
+    if isinstance(value, list) and isinstance(base, list):
+        for index, (own, other) in enumerate(zip(value, base, strict=False)):
+            yield from _differences(f"{path}.{index}", own, other) if own != other else ()
+    elif isinstance(value, dict) and isinstance(base, dict):
+        for name, own in value.items():
+            yield from _differences(f"{path}.{name}", own, base.get(name)) if own != base.get(name) else ()
+    else:
+        yield path, value
 
 
 def _rows(models: Iterable[BaseModel]) -> list[dict[str, Any]]:

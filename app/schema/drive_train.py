@@ -145,7 +145,7 @@ class ShaftBearing(Section):
             default_text="the gears' oil at the film temperature",
             assumed="the viscosity of the gears' oil at the film temperature. If no film temperature is given, the "
             f"film temperature is taken from the heat balance; without a heat balance it is {si.FILM_ABOVE_OIL:.0f} K "
-            "above the oil temperature",
+            "above the feed temperature of the bearing, or above the oil temperature if no feed temperature is given",
         ),
     ] = None
     film_temperature_c: Annotated[
@@ -158,17 +158,19 @@ class ShaftBearing(Section):
             le=300,
             tolerance=5,
             text="temperature at which the oil's viscosity is taken where none is given",
-            default_text=f"by the heat balance if there is one, else oil temperature and {si.FILM_ABOVE_OIL:.0f} K",
+            default_text=f"by the heat balance if there is one, else feed temperature and {si.FILM_ABOVE_OIL:.0f} K",
         ),
     ] = None
+    feed_temperature_c: Annotated[float | None, Input.of(si.JournalBearing, "feed_temperature")] = None
     oil_flow_l_per_min: Annotated[float | None, Input.of(si.JournalBearing, "oil_flow")] = None
     stiffness_n_per_um: Annotated[
         Stiffness | None, Input.of(si.LinearBearing, "stiffness", default_text="required of linear bearings")
     ] = None
 
     def unused(self) -> dict[str, bool]:
-        """Mark clearance and viscosity as unused if the bearing is not a plain bearing."""
-        return dict.fromkeys(("radial_clearance_um", "viscosity_pa_s"), self.type != "journal")
+        """Mark clearance, viscosity and feed temperature as unused if the bearing is not a plain bearing."""
+        names = ("radial_clearance_um", "viscosity_pa_s", "feed_temperature_c")
+        return dict.fromkeys(names, self.type != "journal")
 
     def bearing(self, scuffing: mesh.ScuffingInputs) -> si.Bearing:
         """Return the solver's bearing. If a plain bearing has no given viscosity, the oil of the gears is used.
@@ -193,8 +195,12 @@ class ShaftBearing(Section):
                 "an oil for the gears"
             )
             raise InvalidInput("no_oil", message, "viscosity")
-        film = None if self.film_temperature_c is None else UNITS["c"].to_si(self.film_temperature_c)
-        viscosity = si.gear_oil_viscosity(scuffing.oil, scuffing.temperatures.oil, film)
+        film, feed = (
+            None if given is None else UNITS["c"].to_si(given)
+            for given in (self.film_temperature_c, self.feed_temperature_c)
+        )
+        feed = scuffing.temperatures.oil if feed is None else feed
+        viscosity = si.gear_oil_viscosity(scuffing.oil, feed, film)
         return self.si(si.JournalBearing, viscosity=viscosity, in_gear_oil=film is None)
 
 

@@ -149,6 +149,7 @@ class Oil(SheetOil, of=Lubricant):
     exclusive: ClassVar = (
         *SheetOil.exclusive,
         ("reference_temperature_c", "iso_vg", "kinematic_viscosity_40_mm2_per_s"),
+        ("pressure_viscosity_per_gpa", "pressure_viscosity_38_per_gpa"),
     )
 
     viscosity_pa_s: Annotated[
@@ -174,6 +175,7 @@ class Oil(SheetOil, of=Lubricant):
     pressure_viscosity_per_gpa: Annotated[
         float | None, _of_a_sheet("pressure_viscosity", 1, 60, "by kind and viscosity (Gold, secondary source)")
     ] = 21.9
+    pressure_viscosity_38_per_gpa: Annotated[float | None, Input.of(OilSheet, "pressure_viscosity_38")] = None
     temperature_viscosity_per_k: Annotated[
         float | None, _of_a_sheet("temperature_viscosity", 0, 0.2, "the slope of the Walther law")
     ] = _PAPERS.temperature_viscosity
@@ -225,7 +227,8 @@ class Oil(SheetOil, of=Lubricant):
         sheet, properties = self.sheet(), self.filling(Lubricant, kind=self.kind)
         if sheet is not None:
             beyond = (field.name for field in fields(OilSheet) if field.name in properties)
-            return replace(sheet, **{name: properties[name] for name in beyond})
+            at_38 = self.filling(OilSheet)["pressure_viscosity_38"]
+            return replace(sheet, pressure_viscosity_38=at_38, **{name: properties[name] for name in beyond})
         return None if self.viscosity_pa_s is None else Lubricant(**properties)
 
     @property
@@ -234,8 +237,11 @@ class Oil(SheetOil, of=Lubricant):
         return self.by_sheet or self.viscosity_pa_s is not None
 
     def unused(self) -> dict[str, bool]:
-        """Mark reference temperature and density as unused if a grade or data sheet is given."""
-        return super().unused() | dict.fromkeys(("reference_temperature_c", "density_kg_per_m3"), self.by_sheet)
+        """Mark what a grade or data sheet replaces, and the pressure-viscosity coefficient that 38 °C replaces."""
+        of_one_temperature = dict.fromkeys(("reference_temperature_c", "density_kg_per_m3"), self.by_sheet)
+        at_38 = self.by_sheet and self.pressure_viscosity_38_per_gpa is not None
+        replaced = {"pressure_viscosity_per_gpa": at_38, "pressure_viscosity_38_per_gpa": not self.by_sheet}
+        return super().unused() | of_one_temperature | replaced
 
 
 _WITH_VISCOSITY = [name for name, field in Oil.model_fields.items() if isinstance(field.default, float)]

@@ -7,11 +7,15 @@ call any more, the call may run for another `GRACE_S` seconds. Then the worker i
 
 import asyncio
 import logging
+import os
 import pickle
+import time
 from collections import Counter
 from collections.abc import Callable, Hashable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from anyio import BrokenWorkerProcess, CapacityLimiter, to_process
@@ -22,9 +26,12 @@ from app.errors import ClientGone, DeadlineExceeded, QueueFull, WorkerLost
 from app.log import CALCULATIONS, DEADLINES_MISSED, REFUSED, WAITING, WORKERS_LOST
 from app.settings import MEBIBYTE, Settings
 from app.workers.worker import perform, prepare
+from solvers.kernel_cache import FOLDER
 
 GRACE_S = 2.0  # nearly all calculations end in this time, so users who leave a page early rarely cost a worker
 START_S = 30.0  # longest time of a worker's start, chosen: a start takes 2 s on an idle core
+COMPILING_S = 150.0  # longest time for the kernels of one call, which does not count against its deadline; chosen
+TICK_S = 0.5
 IDLE_S = 5.0  # time between two checks that idle workers answer
 PAUSE_S = 0.1  # pause after the start of a worker has failed
 
@@ -41,6 +48,7 @@ class Job:
     is_single: bool  # False if the call is part of a study
     outcome: Outcome
     timeout: asyncio.Timeout | None = None  # ends the call; None before the call runs
+    compiled_s: float = 0.0  # time in which the call waited for the compilation of kernels; not its fault
 
 
 class Pool:
@@ -52,6 +60,7 @@ class Pool:
         self._settings = settings
         self._preparation = (settings.worker_memory_mb * MEBIBYTE, tuple(modules))
         self._limiter = CapacityLimiter(settings.workers)
+        self._folder = TemporaryDirectory(prefix="tribodrive-", ignore_cleanup_errors=True)  # see `Clock`
         self._running: list[Job] = []
         self._waiting: list[Job] = []
         self._arrival, self._trouble = asyncio.Event(), asyncio.Event()
@@ -63,15 +72,23 @@ class Pool:
         """Run a call of a client in a worker. Raises the errors of the call and the errors in the table `PROBLEMS`."""
         owner = http.headers.get(self._settings.client_header or "") or (http.client.host if http.client else "")
         self._admit(owner)
-        return await unless_gone(http, self.submit(owner, function, *arguments), self._settings.deadline_s)
+        job = self._queued(owner, function, arguments, is_single=True)
+        try:
+            return await unless_gone(http, job.outcome, lambda: self._settings.deadline_s + job.compiled_s)
+        except TimeoutError:
+            DEADLINES_MISSED.inc()
+            raise DeadlineExceeded from None
 
     def submit(self, owner: Hashable, function: Callable[..., Any], *arguments: Any, is_single: bool = True) -> Outcome:
         """Add a call to the queue and return a future of the call's result. To give up the call, cancel the future."""
+        return self._queued(owner, function, arguments, is_single=is_single).outcome
+
+    def _queued(self, owner: Hashable, function: Callable[..., Any], arguments: Any, *, is_single: bool) -> Job:
         job = Job(owner, pickle.dumps((function, arguments)), is_single, asyncio.get_running_loop().create_future())
         job.outcome.add_done_callback(lambda _: self._let_go(job))
         self._waiting.append(job)
         self._arrival.set()
-        return job.outcome
+        return job
 
     def _admit(self, owner: Hashable) -> None:
         """Raise QueueFull if the queue is full, unless another client has at least two calls more than `owner`."""
@@ -108,7 +125,7 @@ class Pool:
     async def _prepared(self) -> int | None:
         """Start a worker or check an idle worker. Return the identifier of its process, or None after a failure."""
         try:
-            async with asyncio.timeout(START_S):
+            async with asyncio.timeout(START_S if FOLDER is not None else START_S + 4 * COMPILING_S):
                 pid: int = await self._in_worker(prepare)
                 return pid
         except Exception as error:  # noqa: BLE001  whatever prevents a worker must not end the service
@@ -139,9 +156,11 @@ class Pool:
     async def _carry_out(self, job: Job) -> bool:
         """Run a call and set the result or the exception of its future. Return True if the worker can be used again."""
         job.timeout = asyncio.timeout(None if job.is_single else self._settings.deadline_s)
+        file = Path(self._folder.name) / str(id(job))
+        watch = asyncio.create_task(_watch(job, file))
         try:
             async with job.timeout:
-                result, lines = await self._in_worker(perform, job.call)
+                result, lines = await self._in_worker(perform, file, job.call)
             for line in lines:
                 logger.warning("a worker said: %s", line)
             if not job.outcome.done():
@@ -155,6 +174,10 @@ class Pool:
                 DEADLINES_MISSED.inc(is_late)
                 job.outcome.set_exception(DeadlineExceeded() if is_late else WorkerLost() if is_lost else error)
             return not (is_late or is_lost)
+        finally:
+            watch.cancel()
+            with suppress(OSError):
+                file.unlink(missing_ok=True)
         return True
 
     async def _in_worker(self, function: Callable[..., Any], *arguments: Any) -> Any:
@@ -165,17 +188,31 @@ class Pool:
             raise BrokenWorkerProcess from error
 
 
-async def unless_gone(http: Request, work: Outcome, deadline_s: float | None = None) -> Any:
-    """Return the result of `work`. If the client leaves or the deadline passes, cancel `work` and raise an error."""
-    departure = asyncio.create_task(_departure(http))
+async def _watch(job: Job, file: Path) -> None:
+    """Move the end of a call while its worker compiles kernels, by at most `COMPILING_S` altogether."""
+    while job.compiled_s < COMPILING_S:
+        await asyncio.sleep(TICK_S)
+        if os.path.exists(file):  # noqa: PTH110, ASYNC240  in memory, takes a microsecond
+            job.compiled_s += TICK_S
+            if job.timeout is not None and (end := job.timeout.when()) is not None and not job.timeout.expired():
+                job.timeout.reschedule(end + TICK_S)
+
+
+async def unless_gone(http: Request, work: Outcome, deadline_s: Callable[[], float] | None = None) -> Any:
+    """Return the result of `work`. Raises ClientGone if the client leaves, TimeoutError if the deadline passes.
+
+    `deadline_s` is asked anew when it has passed, because it moves while kernels are compiled.
+    """
+    departure, began = asyncio.create_task(_departure(http)), time.monotonic()
+    left: float | None = None
     try:
-        await asyncio.wait({work, departure}, timeout=deadline_s, return_when=asyncio.FIRST_COMPLETED)
-        if work.done():
-            return work.result()
-        if departure.done():
-            raise ClientGone
-        DEADLINES_MISSED.inc()
-        raise DeadlineExceeded
+        while deadline_s is None or (left := began + deadline_s() - time.monotonic()) > 0.0:
+            await asyncio.wait({work, departure}, timeout=left, return_when=asyncio.FIRST_COMPLETED)
+            if work.done():
+                return work.result()
+            if departure.done():
+                raise ClientGone
+        raise TimeoutError
     finally:
         departure.cancel()
         work.cancel()

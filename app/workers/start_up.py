@@ -1,20 +1,29 @@
-"""Start-up of the service: `tribodrive compile` runs beside the workers. Endpoints open when their stage is ready."""
+"""Start-up of the service: `tribodrive compile` runs beside the workers. Requests wait until their stages are ready."""
 
 import asyncio
 import logging
 import os
+import re
+import signal
 import sys
 import time
 from asyncio.subprocess import DEVNULL, PIPE
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from contextlib import suppress
 from shutil import rmtree
 
-from app.calculations import BY_PATH, LINE_CONTACT, STAGES, Stage
+from fastapi import Request
+
+from app.calculations import LINE_CONTACT, STAGES, Stage
 from app.errors import WarmingUp
+from app.workers.pool import Pool, unless_gone
 from solvers.kernel_cache import FOLDER
 
 BESIDE = LINE_CONTACT  # compiled beside the other stages, because it takes as long as all of them together
+WAIT_S = 90.0  # longest time that a request waits for its kernels; the client itself waits for 120 s
+STOPPED = {-signal.SIGTERM, -signal.SIGINT}  # exit codes of a compilation that was ended with the service
+STOP_S = 5.0  # a signal to the group reaches the service within this time
+PROGRESS = re.compile(rb"([a-z ]+): (\d+) %\n")
 
 logger = logging.getLogger("tribodrive")
 
@@ -24,23 +33,37 @@ class StartUp:
 
     def __init__(self) -> None:
         self._percent = dict.fromkeys((stage.name for stage in STAGES), 0)
+        self._ready = {stage.name: asyncio.Event() for stage in STAGES}
 
     @property
     def warm(self) -> list[str]:
         """Names of the stages that are ready."""
         return [name for name, percent in self._percent.items() if percent == 100]
 
-    def require(self, *endpoints: str) -> None:
-        """Raise WarmingUp if the stage of an endpoint is not ready. If none is given, check all stages."""
-        needed = {BY_PATH[endpoint].stage.name for endpoint in endpoints} or {*self._percent}
-        if not needed <= {*self.warm}:
+    def require(self, stages: Collection[Stage] = STAGES) -> None:
+        """Raise WarmingUp if one of the stages is not ready."""
+        if not {stage.name for stage in stages} <= {*self.warm}:
             report = ", ".join(f"{name} {percent} %" for name, percent in self._percent.items())
             raise WarmingUp(f"The solvers are being compiled, which happens once after installation: {report}")
 
-    async def run(self) -> None:
-        """Compile all stages, then open all endpoints. If a process fails, compile once more in an empty folder."""
+    async def wait(self, http: Request, stages: Collection[Stage]) -> None:
+        """Wait until the stages of a request are ready. Raises WarmingUp after `WAIT_S`, ClientGone if nobody waits."""
+        waiting = [self._ready[stage.name].wait() for stage in stages if self._percent[stage.name] < 100]
+        if waiting:
+            with suppress(TimeoutError):
+                await unless_gone(http, asyncio.gather(*waiting), lambda: WAIT_S)
+            self.require(stages)
+
+    async def run(self, pool: Pool) -> None:
+        """Compile all stages. If a process fails, compile once more in an empty folder."""
         began = time.monotonic()
-        if FOLDER is not None and not await self._compile(STAGES):
+        if FOLDER is None:
+            logger.warning(
+                "tribodrive: compiled kernels cannot be kept; every worker compiles all of them at its start"
+            )
+            while pool.alive <= 0:  # noqa: ASYNC110  the pool counts its workers; nothing else waits for them
+                await asyncio.sleep(1.0)
+        elif not await self._compile(STAGES):
             logger.warning("a process that compiled kernels died: all are compiled anew")
             await asyncio.to_thread(rmtree, FOLDER, ignore_errors=True)
             if not await self._compile(STAGES):
@@ -66,13 +89,21 @@ class StartUp:
         try:
             assert process.stdout is not None
             async for line in process.stdout:
-                name, _, percent = line.decode().removesuffix(" %\n").partition(": ")
-                self._advance(name, int(percent))
-                if other is None and 0 < int(percent) < 100 and BESIDE in stages[1:] and (os.cpu_count() or 1) > 1:
+                if (progress := PROGRESS.fullmatch(line)) is None or progress[1].decode() not in self._percent:
+                    logger.warning(
+                        "a process that compiles kernels said: %s", line[:200].decode(errors="replace").strip()
+                    )
+                    continue
+                name, percent = progress[1].decode(), int(progress[2])
+                self._advance(name, percent)
+                if other is None and 0 < percent < 100 and BESIDE in stages[1:] and (os.cpu_count() or 1) > 1:
                     other = asyncio.create_task(self._compile([BESIDE]))
                 if other is not None and {stage.name for stage in stages} - {BESIDE.name} <= {*self.warm}:
                     return await other
-            return await process.wait() == 0
+            code = await process.wait()
+            if code in STOPPED:  # the service itself is about to be ended; what is compiled stays
+                await asyncio.sleep(STOP_S)
+            return code == 0
         finally:
             if other is not None:
                 other.cancel()
@@ -84,3 +115,5 @@ class StartUp:
         if percent == 100 > self._percent[name]:
             logger.info("tribodrive: %s is warm", name)
         self._percent[name] = max(percent, self._percent[name])
+        if percent == 100:
+            self._ready[name].set()

@@ -14,6 +14,7 @@ from contextlib import suppress
 from functools import lru_cache
 from importlib import import_module
 from logging.handlers import BufferingHandler
+from pathlib import Path
 from typing import Any
 
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "NUMBA_NUM_THREADS", "MKL_NUM_THREADS"), "1")
@@ -25,12 +26,19 @@ _notes = BufferingHandler(sys.maxsize)
 @lru_cache(maxsize=1)
 def prepare(memory_bytes: int, modules: Sequence[str]) -> int:
     """Load modules and limit the memory, at the first call only. Return the identifier of this process."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # ignored here, because Ctrl-C reaches every process of the terminal
+    # Ctrl-C and the stop of systemd reach every process of the group. The service lets its calls end, and then ends the
+    # workers itself.
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
     os.environ.update(ONE_THREAD)  # before numpy is loaded
     threading.Thread(target=_end_with_the_service, args=(os.getppid(),), daemon=True).start()
     gc.disable()  # imports leave no garbage, and the search for garbage takes a third of the time of the imports
     for name in modules:
         import_module(name)
+    if modules:
+        from app.workers.compiling import prepare_kernels  # noqa: PLC0415  needs what was just loaded
+
+        prepare_kernels()
     gc.freeze()
     gc.enable()
     logging.captureWarnings(capture=True)
@@ -49,12 +57,17 @@ def _end_with_the_service(service: int) -> None:
     os._exit(1)
 
 
-def perform(memory_bytes: int, modules: Sequence[str], call: bytes) -> tuple[Any, list[str]]:
+def perform(memory_bytes: int, modules: Sequence[str], file: Path, call: bytes) -> tuple[Any, list[str]]:
     """Call a pickled function with its arguments. Return the result and the lines that were logged during the call.
 
+    `file` exists while a kernel is being compiled.
     Raises the error of the function, or RuntimeError with the traceback if this error cannot be pickled.
     """
     prepare(memory_bytes, modules)
+    if modules:
+        from app.workers.compiling import clock  # noqa: PLC0415  loaded by `prepare`
+
+        clock.file = file
     _notes.flush()
     try:
         function, arguments = pickle.loads(call)  # noqa: S301  from the service itself

@@ -24,7 +24,7 @@ ShaftName = Literal["pinion", "wheel"]
 State = Literal["hot", "cold"]
 ASSUMED_RESPONSE = 0.5  # chosen within the range of published values, 0.2 to 1
 USUAL_TEETH = (90.0 + 273.15, 80.0 + 273.15)  # K, tooth temperatures of pinion and wheel where none is known
-FILM_ABOVE_OIL = 15.0  # K; assumed difference between the temperatures of a bearing film and of the oil
+FILM_ABOVE_OIL = 15.0  # K; assumed difference between the temperatures of a bearing film and of the oil that enters
 COINCIDENT = 1e-9  # m; positions that are closer together count as one position
 
 
@@ -116,6 +116,18 @@ class JournalBearing(RadialBearing):
         text="used by the heat balance",
         default_text="what leaks at the sides of the film",
     )
+    feed_temperature: float | None = quantity(
+        "feed temperature of the bearing",
+        "θ_in",
+        unit="c",
+        kw_only=True,
+        default=None,
+        ge=-50,
+        le=200,
+        tolerance=5,
+        text="of the oil that enters; the film is warmer",
+        default_text="the oil temperature of the gears",
+    )
 
     @property
     def clearance(self) -> float:
@@ -147,24 +159,24 @@ class RigidBearing(RadialBearing):
 Bearing = JournalBearing | LinearBearing | RigidBearing
 
 
-def gear_oil_viscosity(oil: OilSheet | Lubricant, oil_temperature: float, film_temperature: float | None) -> float:
+def gear_oil_viscosity(oil: OilSheet | Lubricant, feed_temperature: float, film_temperature: float | None) -> float:
     """Compute the viscosity of the gears' oil in a plain bearing.
 
     Parameters
     ----------
     oil : OilSheet or Lubricant
         Oil of the gears.
-    oil_temperature : float
-        Temperature of the gears' oil [K].
+    feed_temperature : float
+        Temperature of the oil that enters the bearing [K].
     film_temperature : float or None
-        Temperature of the film [K]; if None, the film is assumed to be 15 K warmer than the oil.
+        Temperature of the film [K]; if None, the film is assumed to be 15 K warmer than the entering oil.
 
     Returns
     -------
     float
         Viscosity [Pa s].
     """
-    film = oil_temperature + FILM_ABOVE_OIL if film_temperature is None else film_temperature
+    film = feed_temperature + FILM_ABOVE_OIL if film_temperature is None else film_temperature
     return lubricant_at(oil, film).viscosity_at(0.0, film)
 
 

@@ -256,6 +256,7 @@ def _journals(system: Unit, equilibrium: Equilibrium, face: tuple[float, float])
                     ),
                     operate=partial(_operate, bearing, load, side.speed),
                     oil_flow=bearing.oil_flow,
+                    feed=bearing.feed_temperature,
                 )
 
 

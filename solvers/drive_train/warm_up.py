@@ -264,10 +264,9 @@ def _outcome_at(unit: DriveTrainInputs, network: Network, course: WarmUp, time: 
     """Compute the main results of the unit with the temperatures at a point in time [s]."""
     curves = course.curves
     now = np.array([np.interp(time, curves.time, curve) for curve in curves.temperature.T])
-    outlets = iter(now[MIST + 1 :])
-    inlet = network.oil.inlet
+    outlets = enumerate(now[MIST + 1 :] - network.oil.inlet)
     films = [
-        network.film_temperature(float(next(outlets)) - inlet) if isinstance(bearing, JournalBearing) else np.nan
+        network.film_temperature(*next(outlets)) if isinstance(bearing, JournalBearing) else np.nan
         for shaft in unit.shafts
         for bearing in shaft.bearings
     ]

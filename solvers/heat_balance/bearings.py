@@ -48,6 +48,7 @@ class Journal:
     shaft_conductance: float = described("Thermal conductance from the body of the gear to the journal [W/K].")
     operate: Operation = described("Function that returns friction power and eccentricity ratio at a film viscosity.")
     oil_flow: float | None = described("Oil flow; None: the leakage of the bearing [m^3/s].", default=None)
+    feed: float | None = described("Temperature of the entering oil; None: the supply of the gears [K].", default=None)
 
     @property
     def surface_speed(self) -> float:

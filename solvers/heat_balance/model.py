@@ -257,7 +257,7 @@ def _bearings(network: Network, rises: FloatArray) -> Iterator[BearingHeat]:
     for number in range(len(network.journals)):
         rise = float(rises[MIST + 1 + number])
         power, flow = network.operation(number, rise)
-        yield BearingHeat(network.oil.inlet + rise, network.film_temperature(rise), flow, power)
+        yield BearingHeat(network.oil.inlet + rise, network.film_temperature(number, rise), flow, power)
 
 
 def _flows(network: Network, flows: list[Flow]) -> Iterator[HeatFlow]:

@@ -142,8 +142,14 @@ class Network:
 
     @property
     def coldest(self) -> float:
-        """Temperature of the supplied oil, or of the surroundings of the casing if they are colder [K]."""
-        return min(self.oil.inlet, self.casing.ambient) if self.casing else self.oil.inlet
+        """Temperature of the coldest oil that enters, or of the surroundings of the casing if they are colder [K]."""
+        entering = (self.oil.inlet + feed for feed in (0.0, *self._feeds))
+        return min((*entering, self.casing.ambient) if self.casing else entering)
+
+    @cached_property
+    def _feeds(self) -> tuple[float, ...]:
+        """Rise of the oil that enters each bearing over the supply of the gears [K]."""
+        return tuple(0.0 if journal.feed is None else journal.feed - self.oil.inlet for journal in self.journals)
 
     @cached_property
     def _coolings(self) -> dict[tuple[int, float], FlingOff]:
@@ -175,7 +181,7 @@ class Network:
         """
         operation = self._operations.get((number, outlet))
         if operation is None:
-            viscosity = self.oil.viscosity(self.film_temperature(outlet))
+            viscosity = self.oil.viscosity(self.film_temperature(number, outlet))
             operation = self._operations[number, outlet] = self.journals[number].loss_and_flow(viscosity)
         return operation
 
@@ -271,20 +277,22 @@ class Network:
         yield Flow(MIST, BODIES[gear], faces * (mist + rise / 2 - body), "mist on the faces")
 
     def _bearing(self, number: int, rises: FloatArray) -> Iterator[Flow]:
-        """Yield the heat flows of a bearing: friction, leaving oil, and conduction along the shaft."""
+        """Yield the heat flows of a bearing: friction, oil from feed to outlet, and conduction along the shaft."""
         journal, node = self.journals[number], MIST + 1 + number
         outlet, body = float(rises[node]), BODIES[journal.gear]
+        warmed = outlet - self._feeds[number]
         power, flow = self.operation(number, outlet)
         yield Flow(self.size + 2, node, power, "friction of the bearing")
-        yield Flow(node, self.size, self.oil.heat_capacity * flow * outlet, "oil of the bearing")
+        yield Flow(node, self.size, self.oil.heat_capacity * flow * warmed, "oil of the bearing")
         yield Flow(body, node, journal.shaft_conductance * (float(rises[body]) - outlet), "shaft")
 
-    def film_temperature(self, outlet: float) -> float:
-        """Return the film temperature of a bearing [K].
+    def film_temperature(self, number: int, outlet: float) -> float:
+        """Return the film temperature of a bearing, between feed and outlet [K].
 
-        `outlet` [K] is the temperature rise of the oil that leaves the bearing.
+        `outlet` [K] is the rise of the oil that leaves the bearing over the supply of the gears.
         """
-        return self.oil.inlet + self.bearing_film_share * outlet
+        feed = self._feeds[number]
+        return self.oil.inlet + feed + self.bearing_film_share * (outlet - feed)
 
     def _casing(self, walls: CasingWalls, rises: FloatArray) -> Iterator[Flow]:
         """Yield the heat flows from the mist to the casing and from the casing to the surroundings."""

@@ -82,7 +82,7 @@ def _oil_notices(network: Network, rises: FloatArray) -> Iterator[Notice]:
             )
             yield Notice("oil_limited", message, "cooling.gear_flow", rank="note")
     for number, journal in enumerate(network.journals):
-        viscosity = network.oil.viscosity(network.film_temperature(float(rises[MIST + 1 + number])))
+        viscosity = network.oil.viscosity(network.film_temperature(number, float(rises[MIST + 1 + number])))
         reynolds = network.oil.density * journal.surface_speed * journal.clearance / viscosity
         limit = TURBULENT * sqrt(journal.diameter / 2 / journal.clearance)
         if reynolds > limit:

@@ -346,7 +346,7 @@ def test_a_damaged_file_is_read_or_refused_wherever_one_is_taken(data: st.DataOb
         found = json.loads(unit_json(content, MOST_BYTES), parse_constant=pytest.fail)
     except Unprocessable:
         return
-    assert unit_html("", content, MOST_BYTES)
+    assert unit_html(content, "", MOST_BYTES)
     for stage in found["stages"]:
         assert read(with_answer(document, stage["id"], "/v1/scuffing", ANSWER).content, MOST_BYTES)
 
@@ -354,7 +354,7 @@ def test_a_damaged_file_is_read_or_refused_wherever_one_is_taken(data: st.DataOb
 def test_links_of_a_unit_carry_the_name_of_the_file_to_every_report() -> None:
     content = turbo_unit().xml()
     name, hashed = "mill 7.rexs", sha256(content).hexdigest()
-    html = unescape(unit_html("", content, MOST_BYTES, name).decode())
+    html = unescape(unit_html(content, "", MOST_BYTES, name).decode())
     assert f"File: {name}." in html
     links = re.findall(r'href="(/[a-z/-]+\?[^"]+)"', html)
     assert len(links) > 3
@@ -371,4 +371,4 @@ def test_the_page_of_any_number_of_teeth(teeth: int) -> None:
     for each in unit.components:
         if each["type"] == "cylindrical_gear":
             each["attributes"]["number_of_teeth"] = (teeth, "none")
-    assert unit_html("", unit.xml(), MOST_BYTES)
+    assert unit_html(unit.xml(), "", MOST_BYTES)

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from functools import partial
+from operator import attrgetter
 from typing import Annotated, Any, cast
 
 from fastapi import APIRouter, Body, Depends, Path, Query, Request, Response
@@ -38,11 +39,11 @@ class FigureSummary(BaseModel):
 async def calculated(http: Request, path: str, function: Callable[..., bytes], request: Model) -> bytes:
     """Run `function(path, request)` in a worker and return the result.
 
-    Raises WarmingUp if the endpoint is not ready, and Unprocessable if the request would take too long. The errors of
-    the function and of the workers are also raised.
+    A request whose kernels are being compiled waits for them. Raises WarmingUp if they take too long, Unprocessable
+    if the request would take too long, and the errors of the function and of the workers.
     """
-    http.app.state.start_up.require(path)
     refuse_endless(BY_PATH[path], request, http.app.state.settings.deadline_s)
+    await http.app.state.start_up.wait(http, BY_PATH[path].stages(lambda field: attrgetter(field)(request)))
     content: bytes = await http.app.state.pool.calculate(http, function, path, request)
     return content
 

@@ -1,7 +1,12 @@
 """Routes for gear units from REXS files: read a file, show it as a page, and send it back with results."""
 
-from hashlib import sha256
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from hashlib import file_digest
+from io import BytesIO
 from pathlib import PurePath
+from shutil import copyfileobj
+from tempfile import NamedTemporaryFile
 from typing import Annotated, Any, NamedTuple
 
 from fastapi import APIRouter, HTTPException, Query, Request, Response
@@ -33,11 +38,12 @@ UPLOAD_WITH_REQUEST = _body((), request={"type": "string", "description": "the s
 
 
 class Upload(NamedTuple):
-    """An uploaded file: its content, its name, which may be empty, and the request sent with the file."""
+    """An uploaded file on disk: its path, its name, which may be empty, its hash, and the request sent with it."""
 
-    content: bytes
-    name: str = ""
-    request: bytes | None = None
+    path: str
+    name: str
+    sha256: str
+    request: bytes | None
 
 
 router = APIRouter(tags=["files"], responses=documented(400, 413, 415, 422, 500, 503, 504))
@@ -56,8 +62,10 @@ async def read_unit(http: Request) -> Response:
 
     The answer also lists the values that are missing, assumed, unused or wrong.
     """
-    state, upload = http.app.state, await _upload(http)
-    unit = await state.pool.calculate(http, answer.unit_json, upload.content, state.settings.rexs_bytes)
+    state = http.app.state
+    async with _uploaded(http) as upload:
+        arguments = (upload.path, answer.unit_json, state.settings.rexs_bytes)
+        unit = await state.pool.calculate(http, answer.of_file, *arguments)
     return Response(unit, media_type="application/json")
 
 
@@ -78,9 +86,10 @@ async def write_results(
     attribute is written to this attribute. Any other result is written to an attribute whose name begins with
     `custom_tribodrive_`. The rest of the file is unchanged.
     """
-    state, upload = http.app.state, await _upload(http)
-    arguments = (upload.content, state.settings.rexs_bytes, stage, upload.request, state.settings.deadline_s)
-    file: File = await state.pool.calculate(http, answer.with_results, *arguments)
+    state = http.app.state
+    async with _uploaded(http) as upload:
+        limits = (state.settings.rexs_bytes, stage, upload.request, state.settings.deadline_s)
+        file: File = await state.pool.calculate(http, answer.of_file, upload.path, answer.with_results, *limits)
     headers = {"Content-Disposition": f'attachment; filename="results{file.suffix}"'}
     return Response(file.content, media_type=file.media_type, headers=headers)
 
@@ -99,12 +108,12 @@ async def open_unit(http: Request) -> Response:
     """
     root = root_of(http)
     try:
-        upload = await _upload(http)
-        arguments = (upload.content, http.app.state.settings.rexs_bytes, upload.name)
-        shown = await http.app.state.pool.calculate(http, answer.unit_html, root, *arguments)
+        async with _uploaded(http) as upload:
+            arguments = (upload.path, answer.unit_html, root, http.app.state.settings.rexs_bytes, upload.name)
+            shown = await http.app.state.pool.calculate(http, answer.of_file, *arguments)
     except Unprocessable as error:
         return problem_page(http, 422, "The file cannot be read", error.message)
-    name = sha256(upload.content).hexdigest()
+    name = upload.sha256
     try:
         http.app.state.answers[_key(root, name)] = shown
     except ValueError:  # the page is larger than the space for kept pages
@@ -126,16 +135,28 @@ def _key(root: str, name: str) -> str:
     return f"unit {name} {root}"
 
 
-async def _upload(http: Request) -> Upload:
-    """Return the file that the client sent, or raise the error that says why there is none."""
+@asynccontextmanager
+async def _uploaded(http: Request) -> AsyncIterator[Upload]:
+    """Write the file that the client sends to disk, so that waiting files take no memory; delete it afterwards.
+
+    Raises the error that says why there is no file.
+    """
     media_type = http.headers.get("content-type", "").partition(";")[0].strip().lower()
-    if media_type in TYPES:
-        return Upload(await http.body())
-    if media_type != FORM:
+    if media_type not in (*TYPES, FORM):
         raise HTTPException(415, f"send the file with the content type {', '.join(DOCUMENTED_TYPES)}, or as {FORM}")
-    async with http.form(max_files=2, max_fields=2, max_part_size=http.app.state.settings.rexs_bytes) as form:
-        parts = {name: await part.read() if not isinstance(part, str) else part.encode() for name, part in form.items()}
-        name = getattr(form.get("file"), "filename", None) or ""
-    if "file" not in parts:
-        raise Unprocessable("missing", "the form needs a part with the name 'file'", "file")
-    return Upload(parts["file"], PurePath(name).name[: REPORT_NAMES["rexs_file"]], parts.get("request") or None)
+    with NamedTemporaryFile(prefix="tribodrive-") as file:
+        name, request = "", None
+        if media_type != FORM:
+            async for piece in http.stream():
+                file.write(piece)
+        else:
+            most_bytes = http.app.state.settings.rexs_bytes
+            async with http.form(max_files=2, max_fields=2, max_part_size=most_bytes) as form:
+                if (sent := form.get("file")) is None:
+                    raise Unprocessable("missing", "the form needs a part with the name 'file'", "file")
+                copyfileobj(BytesIO(sent.encode()) if isinstance(sent, str) else sent.file, file)
+                name = PurePath(getattr(sent, "filename", None) or "").name[: REPORT_NAMES["rexs_file"]]
+                edited = form.get("request")
+                request = edited.encode() if isinstance(edited, str) else await edited.read() if edited else None
+        file.seek(0)
+        yield Upload(file.name, name, file_digest(file, "sha256").hexdigest(), request or None)

@@ -12,6 +12,7 @@ from fastapi.responses import StreamingResponse
 from pydantic import BaseModel
 from starlette.types import Receive, Scope, Send
 
+from app.calculations import BY_PATH
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
 from app.pages.studies.page import StudyPage
@@ -75,7 +76,7 @@ async def streamed(
 async def started(http: Request, kind: type[Study], body: BaseModel, written_as: Format = "ndjson") -> Response:
     """Check a study in a worker, then return a response that streams the results of the study."""
     study: Study = await planned(http, partial(kind, body), getattr(http.app.state.settings, kind.most))
-    http.app.state.start_up.require(study.question.endpoint)
+    await http.app.state.start_up.wait(http, BY_PATH[study.question.endpoint].stages())
     encode = study.encoder(written_as)
     return await streamed(http, study, lambda lines, _: encoded(lines, encode), MEDIA_TYPES[written_as])
 

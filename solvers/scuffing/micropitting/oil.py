@@ -12,12 +12,11 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.lubricants import ROELANDS_POLE_TEMPERATURE, Lubricant, OilKind
-from solvers.oils import SQUARE_MILLIMETRE, WALTHER_SHIFT, OilSheet
+from solvers.oils import ROUNDED_ZERO, SQUARE_MILLIMETRE, WALTHER_SHIFT, OilSheet, over_coefficient_at_38
 
 Real = TypeVar("Real", float, FloatArray)
 
-ZERO = 273.0  # K, rounded zero of the Celsius scale in ISO/TR 15144-1; the exact zero is 273.15 K
-ROUNDED = 273.15 - ZERO  # K, difference between the exact and the rounded zero
+ROUNDED = 273.15 - ROUNDED_ZERO  # K, difference between the exact and the rounded zero
 DENSITY_SLOPE = 0.7  # kg/(m^3 K)
 DENSITY_ZERO = 289.0  # K, reference temperature of the density, on the scale with the rounded zero
 REFERENCE = 38.0  # C, reference temperature of viscosity and pressure-viscosity coefficient
@@ -119,7 +118,8 @@ def pressure_viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
     if oil.pressure_viscosity is not None:
         return cast("Real", np.full(np.shape(temperature), oil.pressure_viscosity))
     assert isinstance(oil, OilSheet)
-    scale, exponent = REFERENCE_COEFFICIENT[oil.kind]
-    reference = scale * viscosity(oil, REFERENCE + 273.15) ** exponent
-    value = 1.0 + 516.0 * (1.0 / (temperature - ROUNDED) - 1.0 / (REFERENCE + ZERO))
-    return cast("Real", reference * np.maximum(value, 0.0))
+    reference = oil.pressure_viscosity_38
+    if reference is None:
+        scale, exponent = REFERENCE_COEFFICIENT[oil.kind]
+        reference = scale * viscosity(oil, REFERENCE + 273.15) ** exponent
+    return cast("Real", reference * over_coefficient_at_38(temperature))

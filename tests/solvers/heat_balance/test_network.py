@@ -82,7 +82,7 @@ def test_worked_example_of_the_unit() -> None:
     rises = equilibrium(UNIT).rises
     expected = (78.81, 73.26, 75.37, 73.09, 69.92, 89.89, 88.25, 70.37, 71.30)
     assert rises + 50.0 == pytest.approx(expected, abs=0.1)
-    films = [UNIT.film_temperature(float(rise)) - CELSIUS for rise in rises[5:]]
+    films = [UNIT.film_temperature(number, rise) - CELSIUS for number, rise in enumerate(rises[5:])]
     assert films == pytest.approx((81.9, 80.6, 66.3, 67.0), abs=0.1)
     assert [UNIT.cooling(number, rises).conductance for number in (0, 1)] == pytest.approx((937, 982), abs=1.0)
     states = [one.loss_and_flow(OIL.viscosity(film + CELSIUS)) for one, film in zip(UNIT.journals, films, strict=True)]
