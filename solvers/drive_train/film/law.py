@@ -63,7 +63,9 @@ def film_at(law: FilmLaw, eccentricity: float) -> FilmPoint:
     slope = ((3 * coefficients[0] * place + 2 * coefficients[1]) * place + coefficients[2]) / (2 * root)
     width = law.ratio**2 * width_effect(e)
     long_root, short_root = pi**2 * rest + 4 * e**2, pi**2 * rest + 16 * e**2
-    width_slope = width * (2 * e / (2 + e**2) + e * (16 - pi**2) / short_root - e * (4 - pi**2) / long_root + 2 * e / rest)
+    width_slope = width * (
+        2 * e / (2 + e**2) + e * (16 - pi**2) / short_root - e * (4 - pi**2) / long_root + 2 * e / rest
+    )
     factor, root = ratio[0] / (1 + width), sqrt(short_root)
     load = short_load(e)
     load_slope = root / rest**2 + 4 * e**2 * root / rest**3 + e**2 * (16 - pi**2) / (rest**2 * root)
@@ -85,7 +87,7 @@ def eccentricity_at(law: FilmLaw, load: float) -> float:
     Newton's iteration in the interval of the spline that holds the load; a step out of the bracket halves it.
     """
     interval = min(max(int(np.searchsorted(law.load, load)), 1), law.load.size - 1)
-    low, high = law.eccentricity[interval - 1], law.eccentricity[interval]
+    low, high = float(law.eccentricity[interval - 1]), float(law.eccentricity[interval])
     eccentricity, before = (low + high) / 2, high
     while eccentricity != before:
         before = eccentricity

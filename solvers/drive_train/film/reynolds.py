@@ -119,7 +119,9 @@ def _complementary(matrix: csr_array, source: FloatArray, fed: BoolArray, film: 
         inside = np.flatnonzero(film & ~fed)
         pressure = np.zeros(source.size)
         block = matrix[inside][:, inside].tocsc()
-        pressure[inside] = splu(block, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}).solve(source[inside])
+        pressure[inside] = splu(block, permc_spec="MMD_AT_PLUS_A", options={"SymmetricMode": True}).solve(
+            source[inside]
+        )
         following = np.where(film, pressure > 0.0, matrix @ pressure < source) & ~fed
         if np.array_equal(following, film & ~fed):
             return pressure

@@ -2,7 +2,7 @@
 
 A row holds eccentricity ratio, L/D, and three ratios that change little over the table: the load over
 `load_estimate`, the cotangent of the attitude angle and the side flow over those of the short bearing. At L/D = 0 all
-three are 1. `python -m solvers.drive_train.film.table` solves the equation anew (three minutes on two cores).
+three are 1. `python -m solvers.drive_train.film` solves the equation anew (two minutes on two cores).
 """
 
 from functools import cache
@@ -19,8 +19,7 @@ from solvers.drive_train.film.reynolds import solve_film
 FILE = Path(__file__).with_name("table.csv")
 LARGEST_ECCENTRICITY = 0.999  # chosen: the film is then a thousandth of the clearance, thinner than any roughness
 LEAST_ECCENTRICITY = 0.005  # chosen: so light a load has the three ratios of no load to 1e-5
-DEPTHS = 1 - np.sqrt(1 - np.array([LEAST_ECCENTRICITY, LARGEST_ECCENTRICITY]))
-PLACES = np.linspace(*DEPTHS, 31)
+PLACES = np.linspace(1 - sqrt(1 - LEAST_ECCENTRICITY), 1 - sqrt(1 - LARGEST_ECCENTRICITY), 31)
 """Values of 1 - sqrt(1 - e) of the rows, equidistant: the pressure is as long as the square root of the film."""
 RATIOS = (0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0, 1.25, 1.5, 2.0)
 """Values of L/D of the rows; L/D = 0 is the short bearing, and is not in the file."""
@@ -68,7 +67,3 @@ def write_table() -> None:
     rows = [(*node, *values) for node, values in zip(nodes(), solved, strict=True)]
     head = "eccentricity,width_ratio,load,cotangent,side_flow"
     np.savetxt(FILE, np.array(rows), fmt="%.6f", delimiter=",", header=head, comments="")
-
-
-if __name__ == "__main__":
-    write_table()
