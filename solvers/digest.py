@@ -34,7 +34,7 @@ def package_digest() -> str:
     The digest takes a second to compute. The digest is therefore kept in a file on disk. The name of this file is a
     hash of the paths, the modification times and the sizes of all source files.
     """
-    status = [(str(path), (state := path.stat()).st_mtime_ns, state.st_size) for path in sorted(PACKAGE.rglob("*.py"))]
+    status = [(str(path), (state := path.stat()).st_mtime_ns, state.st_size) for path in _sources(PACKAGE)]
     kept = cache_base() / "digests" / sha256(repr(status).encode()).hexdigest()
     with suppress(OSError):
         if len(digest := kept.read_text("ascii")) == sha256().digest_size * 2:
@@ -47,20 +47,26 @@ def package_digest() -> str:
 
 
 def digest_of(package: Path) -> str:
-    """Return the SHA-256 hash of all modules in `package`, except the modules in `NO_CALCULATION`.
+    """Return the SHA-256 hash of all modules and tables in `package`, except the modules in `NO_CALCULATION`.
 
-    The hash is computed from the names and the syntax trees of the modules. A syntax tree contains no comments and no
-    layout. Docstrings and the labels of quantities (title, symbol and similar text) are removed from the tree. An edit
-    of comments, layout, docstrings or labels therefore does not change the digest. An edit of a constant or of a
-    formula changes the digest. Different versions of Python may give different trees, and therefore different digests.
+    The hash is computed from the names, the syntax trees of the modules, and the contents of the tables. A syntax tree
+    contains no comments and no layout. Docstrings and the labels of quantities (title, symbol and similar text) are
+    removed from the tree. An edit of comments, layout, docstrings or labels therefore does not change the digest. An
+    edit of a constant or of a formula changes the digest. Different versions of Python may give different trees, and
+    therefore different digests.
     """
     digest = sha256()
-    for path in sorted(package.rglob("*.py")):
+    for path in _sources(package):
         place = path.relative_to(package)
         if NO_CALCULATION not in place.parts:
             digest.update(f"{place.as_posix()}\n".encode())
-            digest.update(ast.dump(_without_prose(path)).encode())
+            digest.update(path.read_bytes() if path.suffix == ".csv" else ast.dump(_without_prose(path)).encode())
     return digest.hexdigest()
+
+
+def _sources(package: Path) -> list[Path]:
+    """Return the modules, and the tables that they read."""
+    return sorted([*package.rglob("*.py"), *package.rglob("*.csv")])
 
 
 def _without_prose(path: Path) -> ast.Module:

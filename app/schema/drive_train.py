@@ -82,7 +82,9 @@ class TrainModifications(FlankModifications, of=mesh.Modifications):
     """
 
 
-class TrainModel(MeshModel, PumpingOptions, of=si.DriveTrainInputs, only=("face_stations", "coupling_friction")):
+class TrainModel(
+    MeshModel, PumpingOptions, of=si.DriveTrainInputs, only=("face_stations", "coupling_friction", "bearing_film")
+):
     """Choices that the papers leave open in the models, and the numerical resolution."""
 
 
@@ -417,13 +419,16 @@ class DriveTrainRequest(MeshInOil):
         """Mark inputs as unused in addition to the inputs that the base class marks.
 
         This method always marks the pumping loss and the mass of the casing. If the effect of the shafts or of the
-        couplings is switched off, it marks the couplings and their friction law. If the thermal effect is switched off,
+        couplings is switched off, it marks the couplings and their friction law. Without plain bearings, it marks their
+        film. If the thermal effect is switched off,
         it marks the wall responses. If there is a heat balance, it marks the bulk temperatures of the gears.
         """
         coupled = self.couplings and self.effects.shafts and self.effects.coupling
+        plain = any(one.type == "journal" for shaft in (self.pinion_shaft, self.wheel_shaft) for one in shaft.bearings)
         return (
             super().unused()
             | dict.fromkeys(("couplings", "model.coupling_friction"), not coupled)
+            | {"model.bearing_film": not plain}
             | dict.fromkeys(("thermal.wall_response", "thermal.wall_response_wheel"), not self.effects.thermal)
             | dict.fromkeys(("thermal.pinion_bulk_c", "thermal.wheel_bulk_c"), self.is_balanced)
             | dict.fromkeys(("cooling.pumping_w", "cooling.casing.mass_kg"), True)

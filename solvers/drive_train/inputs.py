@@ -20,6 +20,7 @@ from solvers.sources import OCVIRK
 
 Vector2 = tuple[float, float]
 CouplingFriction = Literal["elastic_plastic", "sliding"]
+BearingFilm = Literal["finite", "short"]
 ShaftName = Literal["pinion", "wheel"]
 State = Literal["hot", "cold"]
 ASSUMED_RESPONSE = 0.5  # chosen within the range of published values, 0.2 to 1
@@ -548,6 +549,12 @@ class DriveTrainInputs:
         default="elastic_plastic",
         text="teeth that yield before they slide, or full sliding at any tilt, for comparison",
         assumed="own derivation; no measurement of a well aligned hub is known",
+        advanced=True,
+    )
+    bearing_film: BearingFilm = quantity(
+        "film of the plain bearings",
+        default="finite",
+        text="of finite width, or that of the short bearing, which is too stiff above a third of the diameter",
         advanced=True,
     )
     face_stations: int = quantity(

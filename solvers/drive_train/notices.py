@@ -6,7 +6,8 @@ from dataclasses import replace
 from solvers.contact.notices import high_pressure
 from solvers.coupling.notices import tall_tooth
 from solvers.drive_train.checks import NAMES
-from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing
+from solvers.drive_train.film import WIDEST
+from solvers.drive_train.inputs import BearingFilm, DriveTrainInputs, JournalBearing
 from solvers.drive_train.results import (
     CouplingResult,
     DriveTrainResult,
@@ -33,7 +34,7 @@ def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResu
         for k, (bearing, state) in enumerate(zip(shaft.bearings, result.bearings, strict=True)):
             field = f"{name}.bearings.{k}"
             if isinstance(bearing, JournalBearing):
-                yield from _film_notices(bearing, state.eccentricity_ratio, state.min_film, field)
+                yield from _film_notices(bearing, inputs.bearing_film, state.eccentricity_ratio, state.min_film, field)
         if not all(isinstance(bearing, JournalBearing) for bearing in shaft.bearings):
             message = (
                 "the loss is known only for plain bearings; the total loss and the efficiency do not include the "
@@ -62,15 +63,21 @@ def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResu
 
 
 def _film_notices(
-    bearing: JournalBearing, eccentricity: float | None, film: float | None, field: str
+    bearing: JournalBearing, model: BearingFilm, eccentricity: float | None, film: float | None, field: str
 ) -> Iterator[Notice]:
-    if bearing.width > SHORT_BEARING * bearing.diameter * (1 + ROUNDING):
-        ratio = bearing.width / bearing.diameter
+    ratio = bearing.width / bearing.diameter * (1 - ROUNDING)
+    if model == "short" and ratio > SHORT_BEARING:
         message = (
             f"the ratio of width to diameter is {ratio:.2f}; above 0.7 the theory of the short bearing overestimates "
             "the stiffness of the film"
         )
         yield Notice("short_bearing_range", message, f"{field}.width")
+    if model == "finite" and ratio > WIDEST:
+        message = (
+            f"the bearing is {ratio:.2f} times as wide as its diameter; above {WIDEST:.0f} its film carries per width "
+            f"what the film of a bearing with a ratio of {WIDEST:.0f} carries, which is less than it does"
+        )
+        yield Notice("wide_bearing", message, f"{field}.width")
     if film is not None and eccentricity is not None and (film < THIN_FILM or eccentricity > LARGE_ECCENTRICITY):
         message = (
             f"the film of the bearing is only {film * 1e6:.1f} um thick at an eccentricity ratio of {eccentricity:.2f}"

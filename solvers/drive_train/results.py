@@ -16,7 +16,7 @@ from solvers.quantity import computed, described, quantity, record
 from solvers.scuffing.inputs import ISO_TR_15144, TR_13989
 from solvers.scuffing.micropitting.results import Micropitting, Wear
 from solvers.scuffing.results import LoadDistribution, Place
-from solvers.sources import ISO_6336, OCVIRK
+from solvers.sources import ISO_6336, REYNOLDS
 
 
 @record
@@ -133,9 +133,11 @@ class BearingResult:
     displacement: Vector2 = quantity(
         "displacement in the bearing", "u_B", unit="um", text="of the shaft, without the bore's offset", index="X, Y"
     )
-    eccentricity_ratio: float | None = quantity("eccentricity ratio", "ε", OCVIRK)
-    attitude: float | None = quantity("attitude angle", "φ_B", OCVIRK, unit="deg", text="of displacement against load")
-    min_film: float | None = quantity("thinnest film of the bearing", "h_min,B", OCVIRK, unit="um")
+    eccentricity_ratio: float | None = quantity("eccentricity ratio", "ε", REYNOLDS)
+    attitude: float | None = quantity(
+        "attitude angle", "φ_B", REYNOLDS, unit="deg", text="of displacement against load"
+    )
+    min_film: float | None = quantity("thinnest film of the bearing", "h_min,B", REYNOLDS, unit="um")
     specific_pressure: float | None = quantity(
         "specific bearing pressure", "p_B", unit="mpa", text="load over the projected area"
     )

@@ -19,10 +19,10 @@ from solvers.drive_train.checks import NAMES, check_bearing_count
 from solvers.drive_train.elements import coupling_results, hubs_of
 from solvers.drive_train.gap.balance import Equilibrium
 from solvers.drive_train.gap.thermal_lead import gas_heat
-from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft, UnitCoupling
+from solvers.drive_train.inputs import BearingFilm, DriveTrainInputs, JournalBearing, Shaft, UnitCoupling
 from solvers.drive_train.prepared import Prepared, prepare, settle
 from solvers.drive_train.results import TrainSafety
-from solvers.drive_train.shafts.bearings import friction_and_eccentricity
+from solvers.drive_train.shafts.bearings import friction_and_leakage
 from solvers.drive_train.shafts.influence import Unit
 from solvers.errors import NoSolution
 from solvers.heat_balance import Heat, HeatBalanceInputs, Journal, rod_conductance
@@ -248,26 +248,27 @@ def _journals(system: Unit, equilibrium: Equilibrium, face: tuple[float, float])
                 yield Journal(
                     gear=gear,
                     diameter=bearing.diameter,
-                    width=bearing.width,
                     clearance=bearing.clearance,
                     speed=side.speed,
                     shaft_conductance=rod_conductance(
                         _sections_between(side.shaft, face, bearing.position), SHAFT_CONDUCTIVITY
                     ),
-                    operate=partial(_operate, bearing, load, side.speed),
+                    operate=partial(_operate, bearing, load, side.speed, system.bearing_film),
                     oil_flow=bearing.oil_flow,
                     feed=bearing.feed_temperature,
                 )
 
 
-def _operate(bearing: JournalBearing, load: float, speed: float, viscosity: float) -> tuple[float, float]:
-    """Return the friction power [W] and the eccentricity ratio of a plain bearing.
+def _operate(
+    bearing: JournalBearing, load: float, speed: float, film: BearingFilm, viscosity: float
+) -> tuple[float, float]:
+    """Return the friction power [W] and the side leakage [m^3/s] of a plain bearing.
 
     `viscosity` [Pa s] is used only if the bearing runs in the gears' oil. Otherwise the bearing keeps its own
     viscosity.
     """
-    film = replace(bearing, viscosity=viscosity) if bearing.in_gear_oil else bearing
-    return friction_and_eccentricity(film, load, speed)
+    filled = replace(bearing, viscosity=viscosity) if bearing.in_gear_oil else bearing
+    return friction_and_leakage(filled, load, speed, film)
 
 
 def _places(shaft: Shaft) -> Iterator[tuple[float, float, float, float]]:

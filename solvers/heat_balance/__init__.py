@@ -9,7 +9,7 @@ equations.
 
 from solvers.guards import guarded
 from solvers.heat_balance import model
-from solvers.heat_balance.bearings import Journal, Operation, journal_leakage
+from solvers.heat_balance.bearings import Journal, Operation
 from solvers.heat_balance.capacities import Capacities, cylinders_capacity, loaded_teeth_capacity
 from solvers.heat_balance.conduction import rod_conductance
 from solvers.heat_balance.fling_off import TOOTH_HEIGHT
@@ -51,7 +51,6 @@ __all__ = [
     "cooling_in_force",
     "cooling_oil",
     "cylinders_capacity",
-    "journal_leakage",
     "loaded_teeth_capacity",
     "network_of",
     "over_the_flow",

@@ -94,6 +94,7 @@ def turbo_gear(modifications: Modifications = PLAIN, power: float = 12e6) -> Dri
         couplings=(COUPLING,),
         heat=HEAT,
         coupling_friction="sliding",
+        bearing_film="short",
     )
 
 

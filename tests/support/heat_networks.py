@@ -9,7 +9,7 @@ from math import cos, exp, pi, radians
 import numpy as np
 
 from solvers.drive_train.inputs import JournalBearing
-from solvers.drive_train.shafts.bearings import bearing_state
+from solvers.drive_train.shafts.bearings import friction_and_leakage
 from solvers.heat_balance.bearings import Journal, Operation
 from solvers.heat_balance.conduction import rod_conductance
 from solvers.heat_balance.fling_off import turning_teeth
@@ -48,13 +48,11 @@ def gear(
 def operation(bearing: JournalBearing, load: float, speed: float) -> Operation:
     """Return a function of the viscosity [Pa s] for a plain bearing under a fixed load [N].
 
-    The function returns the friction power [W] and the eccentricity ratio.
+    The function returns the friction power [W] and the side leakage [m^3/s] of the short bearing.
     """
 
     def operate(viscosity: float) -> tuple[float, float]:
-        state = bearing_state(replace(bearing, viscosity=viscosity), np.array([0.0, -load]), speed, 1.0)
-        assert state.eccentricity_ratio is not None
-        return state.friction_power, state.eccentricity_ratio
+        return friction_and_leakage(replace(bearing, viscosity=viscosity), load, speed, "short")
 
     return operate
 
@@ -68,7 +66,6 @@ def journal(number: int, bearing: JournalBearing, load: float, speed: float, *se
     return Journal(
         number,
         bearing.diameter,
-        bearing.width,
         bearing.clearance,
         speed,
         conductance,

@@ -16,10 +16,11 @@ from app.figures.sketches import shafts
 from app.figures.units import MM, axis
 from app.figures.wording import number, percent, without_rounding
 from solvers.drive_train import solve
+from solvers.drive_train.film import FilmLaw, film_at
 from solvers.drive_train.inputs import DriveTrainInputs, Effects, JournalBearing, Shaft, Vector2
 from solvers.drive_train.results import DriveTrainResult, ShaftResult
 from solvers.drive_train.safety import contact_of
-from solvers.drive_train.shafts.bearings import attitude_angle
+from solvers.drive_train.shafts.bearings import law_of
 from solvers.drive_train.unit_heat import at_temperatures
 from solvers.heat_balance import FlowCurve
 from solvers.quantity import UNITS
@@ -185,10 +186,10 @@ def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[s
     return Figure(finding, [Panel(x=face(face_width(inputs)), y=y, lines=lines)])
 
 
-def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
+def journals(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Draw the position of each journal in its clearance.
 
-    Also draw the path that the journal takes as the load changes. This path is computed by Ocvirk's theory.
+    Also draw the path that the journal takes as the load changes.
     """
     wall = Line("clearance", np.cos(ROUND), np.sin(ROUND), Hue.GREY, named=False)
     across, up = (
@@ -196,18 +197,18 @@ def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
         for way, symbol in (("X", "u_B/c"), ("Y", "v_B/c"))
     )
     panels, films = [], list[float]()
-    used = (result.derived.pinion_shaft, result.derived.wheel_shaft)
-    for name, state, shaft in zip(("pinion", "wheel"), result.shafts, used, strict=True):
+    for name, state, shaft in zip(("pinion", "wheel"), result.shafts, inputs.shafts, strict=True):
         lines, marks = [], []
         for index, (bearing, given) in enumerate(zip(state.bearings, shaft.bearings, strict=True)):
             if bearing.min_film is not None:
                 films.append(bearing.min_film)
-            if bearing.eccentricity_ratio is None or given.radial_clearance is None:
+            if bearing.eccentricity_ratio is None or not isinstance(given, JournalBearing):
                 continue
-            x, y = (float(part) / given.radial_clearance for part in bearing.displacement)
+            x, y = (float(part) / given.clearance for part in bearing.displacement)
             hue = (Hue.BLUE, Hue.VERMILLION)[index]
             named = name == "wheel"  # the legend stands beside the last panel
-            lines.append(Line(f"bearing {index + 1}", *_locus(x, y, bearing.reaction), hue, named=named))
+            path = _locus(x, y, bearing.reaction, law_of(given, inputs.bearing_film))
+            lines.append(Line(f"bearing {index + 1}", *path, hue, named=named))
             marks.append(Mark(x, y, f"ε = {number(bearing.eccentricity_ratio)}", hue))
         if lines:
             panel = Panel(x=across, y=up, title=f"{name} shaft", lines=[wall, *lines], marks=marks, equal=True)
@@ -219,7 +220,7 @@ def journals(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     return Figure(finding, panels, beside=True)
 
 
-def _locus(x: float, y: float, reaction: Vector2) -> tuple[Values, Values]:
+def _locus(x: float, y: float, reaction: Vector2, law: FilmLaw) -> tuple[Values, Values]:
     """Return the path of a journal whose load grows from zero to the full load without changing its direction.
 
     The path begins in the middle of the clearance and ends at (x, y). All displacements are divided by the clearance.
@@ -227,7 +228,7 @@ def _locus(x: float, y: float, reaction: Vector2) -> tuple[Values, Values]:
     load = atan2(-reaction[1], -reaction[0])
     side = copysign(1.0, sin(atan2(y, x) - load))
     eccentricity = np.linspace(0.0, hypot(x, y), 60)
-    angle = np.array([load + side * attitude_angle(float(ratio)) for ratio in eccentricity])
+    angle = np.array([load + side * film_at(law, float(ratio)).attitude for ratio in eccentricity])
     return eccentricity * np.cos(angle), eccentricity * np.sin(angle)
 
 
@@ -370,7 +371,7 @@ FIGURES = (
         asked_by="micropitting",
     ),
     Declaration("wear", "Wear over the flanks", "Archard 1953", wear, asked_by="micropitting"),
-    Declaration("journals", "Journals in the clearances of the plain bearings", "Ocvirk 1953", journals),
+    Declaration("journals", "Journals in the clearances of the plain bearings", "Reynolds 1886", journals),
     Declaration("thrust", "Axial load of the shafts", "API 613, 5th ed.", thrust),
     Declaration("losses", "Losses of the unit", OWN, losses),
     Declaration("heat-flows", "Where the heat goes", OWN, where_heat_goes, asked_by=METHOD, asked_if=BALANCE),

@@ -1,20 +1,18 @@
 """Displacements of bearings under load.
 
-Plain bearings have the film of a short bearing (DuBois and Ocvirk, NACA 1157, 1953). Other bearings are linear springs
-or rigid.
+Plain bearings have the film of their width or that of a short bearing (DuBois and Ocvirk, NACA 1157, 1953). Other
+bearings are linear springs or rigid.
 """
 
 from dataclasses import dataclass
-from math import atan2, cos, hypot, pi, sin, sqrt
+from math import cos, hypot, pi, sin, sqrt
 
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.compiled import kernel
-from solvers.drive_train.inputs import Bearing, JournalBearing, LinearBearing
+from solvers.drive_train.film import LARGEST_ECCENTRICITY, FilmLaw, eccentricity_at, film_at, film_law
+from solvers.drive_train.inputs import Bearing, BearingFilm, JournalBearing, LinearBearing
 from solvers.errors import NoSolution
-
-LARGEST_ECCENTRICITY = 0.999  # chosen: the film is then a thousandth of the clearance, thinner than any roughness
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,71 +37,21 @@ class BearingState:
     friction_power: float = 0.0
 
 
-@kernel
-def load_number(eccentricity: float) -> float:
-    """Compute the dimensionless load of a short bearing.
+def law_of(bearing: JournalBearing, film: BearingFilm) -> FilmLaw:
+    """Return the film of a plain bearing: that of its width, or that of the short bearing."""
+    return film_law(bearing.width / bearing.diameter if film == "finite" else 0.0)
 
-    Parameters
-    ----------
-    eccentricity : float
-        Eccentricity ratio [-].
 
-    Returns
-    -------
-    float
-        Load divided by eta omega (D/2) L^3 / (4 c^2) [-].
+def film_force(bearing: JournalBearing, speed: float, law: FilmLaw) -> float:
+    """Force eta omega (D/2) L^3/(4 c^2) [N] of a load number of 1 at a speed [rad/s] (Eq. D4).
 
-    Notes
-    -----
-    Eq. D4, for a film that covers only the half of the circumference in which the pressure is positive.
+    A bearing wider than its film law has the same load per width as a bearing of that law.
     """
-    square = eccentricity**2
-    return eccentricity / (1 - square) ** 2 * sqrt(pi**2 * (1 - square) + 16 * square)
+    reach = law.ratio * bearing.diameter if law.ratio > 0.0 else bearing.width
+    return bearing.viscosity * speed * bearing.diameter / 2 * bearing.width * reach**2 / (4 * bearing.clearance**2)
 
 
-def attitude_angle(eccentricity: float) -> float:
-    """Compute the angle from the load to the displacement, in the sense of rotation.
-
-    Parameters
-    ----------
-    eccentricity : float
-        Eccentricity ratio e [-].
-
-    Returns
-    -------
-    float
-        Attitude angle phi [rad], with tan phi = pi sqrt(1 - e^2) / (4 e).
-
-    Notes
-    -----
-    Eq. D5.
-    """
-    return atan2(pi * sqrt(1 - eccentricity**2), 4 * eccentricity)
-
-
-def film_force(bearing: JournalBearing, speed: float) -> float:
-    """Compute the reference force for the dimensionless load of a short bearing.
-
-    Parameters
-    ----------
-    bearing : JournalBearing
-        The bearing.
-    speed : float
-        Angular speed of the shaft [rad/s].
-
-    Returns
-    -------
-    float
-        Reference force eta omega (D/2) L^3 / (4 c^2) [N].
-
-    Notes
-    -----
-    Eq. D4.
-    """
-    return bearing.viscosity * speed * bearing.diameter / 2 * bearing.width**3 / (4 * bearing.clearance**2)
-
-
-def bearing_state(bearing: Bearing, load: FloatArray, speed: float, rotation: float) -> BearingState:
+def bearing_state(bearing: Bearing, load: FloatArray, speed: float, rotation: float, film: BearingFilm) -> BearingState:
     """Compute displacement and flexibility of a bearing under a load.
 
     Parameters
@@ -116,6 +64,8 @@ def bearing_state(bearing: Bearing, load: FloatArray, speed: float, rotation: fl
         Angular speed of the shaft [rad/s].
     rotation : float
         Sense of rotation of the shaft, +1 if counter-clockwise about Z, else -1.
+    film : BearingFilm
+        Film of the plain bearings.
 
     Returns
     -------
@@ -132,23 +82,23 @@ def bearing_state(bearing: Bearing, load: FloatArray, speed: float, rotation: fl
     Eq. D5.
     """
     if isinstance(bearing, JournalBearing):
-        return _journal(bearing, load, speed, rotation)
+        return _journal(bearing, load, speed, rotation, law_of(bearing, film))
     if isinstance(bearing, LinearBearing):
         flexibility = np.linalg.inv(np.array(bearing.stiffness))
         return BearingState(load, flexibility @ load, flexibility)
     return BearingState(load, np.zeros(2), np.zeros((2, 2)))
 
 
-def _journal(bearing: JournalBearing, load: FloatArray, speed: float, rotation: float) -> BearingState:
-    clearance, scale = bearing.clearance, film_force(bearing, speed)
+def _journal(bearing: JournalBearing, load: FloatArray, speed: float, rotation: float, law: FilmLaw) -> BearingState:
+    clearance, scale = bearing.clearance, film_force(bearing, speed, law)
     force = hypot(load[0], load[1])
-    eccentricity = _eccentricity(force / scale)
-    attitude = attitude_angle(eccentricity)
-    turn = _turn(rotation * attitude)
+    eccentricity = _eccentricity(law, force / scale)
+    film = film_at(law, eccentricity)
+    turn = _turn(rotation * film.attitude)
     direction = load / force if force > 0.0 else np.array([1.0, 0.0])
     across = np.array([-direction[1], direction[0]])
-    slope, swing = 1.0 / (scale * _load_slope(eccentricity)), _attitude_slope(eccentricity)
-    along_load = slope * (turn + eccentricity * rotation * swing * turn @ _turn(pi / 2)) @ direction
+    slope = 1.0 / (scale * film.load_slope)
+    along_load = slope * (turn + eccentricity * rotation * film.attitude_slope * turn @ _turn(pi / 2)) @ direction
     secant = eccentricity / force if force > 0.0 else slope
     flexibility = clearance * (np.outer(along_load, direction) + secant * np.outer(turn @ across, across))
     return BearingState(
@@ -156,64 +106,41 @@ def _journal(bearing: JournalBearing, load: FloatArray, speed: float, rotation: 
         displacement=clearance * eccentricity * turn @ direction,
         flexibility=flexibility,
         eccentricity_ratio=eccentricity,
-        attitude=attitude,
+        attitude=film.attitude,
         minimum_film=clearance * (1 - eccentricity),
         specific_pressure=force / (bearing.diameter * bearing.width),
-        friction_power=_friction(bearing, speed, eccentricity),
+        friction_power=_friction(bearing, speed, law, eccentricity),
     )
 
 
-def _friction(bearing: JournalBearing, speed: float, eccentricity: float) -> float:
-    """Return the friction power [W], which is the power of the concentric bearing divided by sqrt(1 - e^2)."""
-    concentric = 2 * pi * bearing.viscosity * speed**2 * (bearing.diameter / 2) ** 3 * bearing.width
-    return concentric / (bearing.clearance * sqrt(1 - eccentricity**2))
+def _friction(bearing: JournalBearing, speed: float, law: FilmLaw, eccentricity: float) -> float:
+    """Friction power of the journal [W] (Eq. D5): shear of the full ring, and the pressure on the inclined film."""
+    film, radius = film_at(law, eccentricity), bearing.diameter / 2
+    shear = 2 * pi / sqrt(1 - eccentricity**2)
+    pressure = eccentricity / 2 * law.ratio**2 * film.load * sin(film.attitude)
+    return bearing.viscosity * speed**2 * radius**3 * bearing.width / bearing.clearance * (shear + pressure)
 
 
-def friction_and_eccentricity(bearing: JournalBearing, load: float, speed: float) -> tuple[float, float]:
-    """Compute friction power [W] and eccentricity ratio of a plain bearing under a load [N] at a speed [rad/s].
+def friction_and_leakage(bearing: JournalBearing, load: float, speed: float, film: BearingFilm) -> tuple[float, float]:
+    """Return friction power [W] and side leakage [m^3/s] of a plain bearing under a load [N] at a speed [rad/s].
 
-    Raises NoSolution `journal` if the film would be thinner than a thousandth of the clearance.
+    Eq. D5 and H12. Raises NoSolution `journal` if the film would be thinner than a thousandth of the clearance.
     """
-    eccentricity = _eccentricity(load / film_force(bearing, speed))
-    return _friction(bearing, speed, eccentricity), eccentricity
+    law = law_of(bearing, film)
+    eccentricity = _eccentricity(law, load / film_force(bearing, speed, law))
+    couette = speed * bearing.diameter / 2 * bearing.width * bearing.clearance
+    return _friction(bearing, speed, law, eccentricity), couette * film_at(law, eccentricity).side_flow
 
 
-def _eccentricity(load: float) -> float:
+def _eccentricity(law: FilmLaw, load: float) -> float:
     """Return the eccentricity ratio at a load number."""
-    if load > load_number(LARGEST_ECCENTRICITY):
+    if load > film_at(law, LARGEST_ECCENTRICITY).load:
         message = (
             "the film of a plain bearing cannot carry the load, because the film would be thinner than a thousandth "
             "of the clearance"
         )
         raise NoSolution("journal", message, {"load_number": load})
-    return _invert_load_number(load)
-
-
-@kernel
-def _invert_load_number(load: float) -> float:
-    """Return the eccentricity ratio at a load number, by Newton's iteration from the largest eccentricity ratio.
-
-    The load number is a convex function of the eccentricity ratio. Newton's steps therefore decrease the ratio until
-    rounding ends the iteration.
-    """
-    eccentricity, before = LARGEST_ECCENTRICITY, 1.0
-    while eccentricity < before:
-        before = eccentricity
-        eccentricity -= (load_number(eccentricity) - load) / _load_slope(eccentricity)
-    return max(eccentricity, 0.0)
-
-
-@kernel
-def _load_slope(eccentricity: float) -> float:
-    """Return the derivative of `load_number`."""
-    rest, root = 1 - eccentricity**2, sqrt(pi**2 * (1 - eccentricity**2) + 16 * eccentricity**2)
-    return root / rest**2 + 4 * eccentricity**2 * root / rest**3 + eccentricity**2 * (16 - pi**2) / (rest**2 * root)
-
-
-def _attitude_slope(eccentricity: float) -> float:
-    """Return the derivative of `attitude_angle`."""
-    rest = 1 - eccentricity**2
-    return -4 * pi / (sqrt(rest) * (pi**2 * rest + 16 * eccentricity**2))
+    return eccentricity_at(law, load)
 
 
 def _turn(angle: float) -> FloatArray:

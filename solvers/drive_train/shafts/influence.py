@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.drive_train.inputs import DriveTrainInputs, Shaft
+from solvers.drive_train.inputs import BearingFilm, DriveTrainInputs, Shaft
 from solvers.drive_train.shafts.bearings import BearingState, bearing_state
 from solvers.drive_train.shafts.coupling_loads import LOADS, CouplingPort, coupling_port
 from solvers.drive_train.shafts.frame import Frame, frame
@@ -75,6 +75,7 @@ class Unit:
     frame: Frame
     stations: FloatArray
     shafts: tuple[ShaftPorts, ShaftPorts]
+    bearing_film: BearingFilm
     couplings: tuple[CouplingPort, ...]
     elastic: FloatArray
     rest: FloatArray
@@ -86,7 +87,9 @@ class Unit:
         """Return load, displacement and other results of the four bearings under given loads of the ports."""
         carried = self.bearing_loads @ loads + self.bearing_rest
         return [
-            bearing_state(bearing, carried[4 * i + 2 * k : 4 * i + 2 * k + 2], side.speed, side.rotation)
+            bearing_state(
+                bearing, carried[4 * i + 2 * k : 4 * i + 2 * k + 2], side.speed, side.rotation, self.bearing_film
+            )
             for i, side in enumerate(self.shafts)
             for k, bearing in enumerate(side.shaft.bearings)
         ]
@@ -153,6 +156,7 @@ def unit(inputs: DriveTrainInputs, path: PathOfContact) -> Unit:
         frame=directions,
         stations=stations,
         shafts=(sides[0], sides[1]),
+        bearing_film=inputs.bearing_film,
         couplings=tuple(couplings),
         elastic=np.asarray(elastic),
         rest=np.asarray(sum(side.reading(side.motion(side.fixed)) for side in sides)),

@@ -100,6 +100,11 @@ def test_warnings_of_the_example() -> None:
         (changed(PLAIN_UNIT, {THRUST: 60e3}), "thrust_overload", THRUST),
         (changed(PLAIN_UNIT, {"couplings.0.offset": (0.0, 1.2e-3)}), "misalignment_limit", "couplings.0.misalignment"),
         (changed(PLAIN_UNIT, {f"{BEARINGS}.1.width": 0.113}), "short_bearing_range", f"{BEARINGS}.1.width"),
+        (
+            changed(PLAIN_UNIT, {f"{BEARINGS}.1.width": 0.33, "bearing_film": "finite"}),
+            "wide_bearing",
+            f"{BEARINGS}.1.width",
+        ),
         (turbo_gear(replace(GROUND, helix_slope=250e-6)), "lift_off", None),
         (with_films(3e-4), "thin_film", f"{BEARINGS}.1.radial_clearance"),
         (OVERHUNG, "long_overhang", "couplings.0.position"),

@@ -2,14 +2,16 @@
 
 import itertools
 from dataclasses import replace
-from math import atan2, degrees, hypot, pi, sqrt
+from math import atan2, degrees, hypot, pi, sin, sqrt
 
 import numpy as np
 import pytest
 
 from solvers.arrays import FloatArray
+from solvers.drive_train.film import film_at, film_law
 from solvers.drive_train.gap.face_curves import face_crown, face_mean, face_slope
 from solvers.drive_train.inputs import (
+    BearingFilm,
     DriveTrainInputs,
     Effects,
     JournalBearing,
@@ -18,7 +20,7 @@ from solvers.drive_train.inputs import (
     Shaft,
     ShaftSection,
 )
-from solvers.drive_train.shafts.bearings import attitude_angle, bearing_state, film_force, load_number
+from solvers.drive_train.shafts.bearings import bearing_state, film_force
 from solvers.drive_train.shafts.influence import Unit, unit
 from solvers.drive_train.shafts.shaft import GRAVITY, area, second_moment, shaft_model, shear_coefficient
 from solvers.scuffing.model import mesh_of
@@ -31,6 +33,8 @@ from tests.support.outcomes import unsolved
 
 JOURNAL = JournalBearing(0.0, 0.16, 0.11, 0.014, 130e-6)
 SPEED = 1000.0
+SHORT = film_law(0.0)
+FILMS: tuple[BearingFilm, ...] = ("finite", "short")
 
 
 def force_of(displacement: np.ndarray, rotation: float) -> np.ndarray:
@@ -41,7 +45,7 @@ def force_of(displacement: np.ndarray, rotation: float) -> np.ndarray:
     eccentricity = hypot(*displacement) / JOURNAL.clearance
     radial, rest = displacement / hypot(*displacement), 1 - eccentricity**2
     tangential = rotation * np.array([-radial[1], radial[0]])
-    scale = film_force(JOURNAL, SPEED)
+    scale = film_force(JOURNAL, SPEED, SHORT)
     inward, along = 4 * eccentricity**2 / rest**2, pi * eccentricity / rest**1.5
     return np.asarray(scale * (-inward * radial + along * tangential))
 
@@ -49,7 +53,7 @@ def force_of(displacement: np.ndarray, rotation: float) -> np.ndarray:
 @pytest.mark.parametrize("rotation", [1.0, -1.0])
 @pytest.mark.parametrize("load", [(0.0, -50e3), (30e3, 4e3), (-1.0, 0.1), (2e6, 1e6)])
 def test_the_film_answers_its_load(load: tuple[float, float], rotation: float) -> None:
-    state = bearing_state(JOURNAL, np.array(load), SPEED, rotation)
+    state = bearing_state(JOURNAL, np.array(load), SPEED, rotation, "short")
     assert force_of(state.displacement, rotation) == pytest.approx(-np.array(load), abs=1e-10 * hypot(*load))
     assert state.minimum_film == pytest.approx(JOURNAL.clearance - hypot(*state.displacement))
 
@@ -63,56 +67,77 @@ def test_closed_form_is_the_integrated_pressure(eccentricity: float) -> None:
     film, slope = clearance * (1 + eccentricity * np.cos(theta)), -clearance * eccentricity * np.sin(theta)
     per_angle = 3 * JOURNAL.viscosity * SPEED * slope / film**3 * (-(width**3) / 6) * radius
     inward, along = np.sum(weight * per_angle * np.cos(theta)), np.sum(weight * per_angle * np.sin(theta))
-    assert hypot(inward, along) == pytest.approx(film_force(JOURNAL, SPEED) * load_number(eccentricity), rel=1e-6)
-    assert atan2(along, -inward) == pytest.approx(attitude_angle(eccentricity), rel=1e-6)
+    point = film_at(SHORT, eccentricity)
+    assert hypot(inward, along) == pytest.approx(film_force(JOURNAL, SPEED, SHORT) * point.load, rel=1e-6)
+    assert atan2(along, -inward) == pytest.approx(point.attitude, rel=1e-6)
 
 
-def test_without_load_the_shaft_moves_across() -> None:
-    assert degrees(attitude_angle(0.0)) == pytest.approx(90.0, abs=1e-4)
-    state = bearing_state(JOURNAL, np.zeros(2), SPEED, 1.0)
+@pytest.mark.parametrize("film", FILMS)
+def test_without_load_the_shaft_moves_across(film: BearingFilm) -> None:
+    state = bearing_state(JOURNAL, np.zeros(2), SPEED, 1.0, film)
+    assert degrees(state.attitude) == pytest.approx(90.0, abs=1e-4)
     assert state.displacement == pytest.approx([0.0, 0.0], abs=0.0)
     assert state.friction_power == pytest.approx(2 * pi * 0.014 * SPEED**2 * 0.08**3 * 0.11 / 130e-6)
 
 
-def test_a_counterclockwise_shaft_under_its_weight_moves_to_plus_x() -> None:
-    assert bearing_state(JOURNAL, np.array([0.0, -1e4]), SPEED, 1.0).displacement[0] > 0.0
-    assert bearing_state(JOURNAL, np.array([0.0, -1e4]), SPEED, -1.0).displacement[0] < 0.0
+@pytest.mark.parametrize("film", FILMS)
+def test_a_counterclockwise_shaft_under_its_weight_moves_to_plus_x(film: BearingFilm) -> None:
+    assert bearing_state(JOURNAL, np.array([0.0, -1e4]), SPEED, 1.0, film).displacement[0] > 0.0
+    assert bearing_state(JOURNAL, np.array([0.0, -1e4]), SPEED, -1.0, film).displacement[0] < 0.0
 
 
+@pytest.mark.parametrize("film", FILMS)
 @pytest.mark.parametrize("load", [(0.0, 0.0), (0.0, -50e3), (30e3, 4e3), (3e5, -1e6)])
 @pytest.mark.parametrize(
     "bearing",
     [JOURNAL, LinearBearing(0.0, ((3e8, 1e8), (-2e8, 5e8))), RigidBearing(0.0)],
     ids=["film", "spring", "rigid"],
 )
-def test_flexibility_is_the_derivative(bearing: JournalBearing | LinearBearing, load: tuple[float, float]) -> None:
+def test_flexibility_is_the_derivative(
+    bearing: JournalBearing | LinearBearing, load: tuple[float, float], film: BearingFilm
+) -> None:
     step = 0.1
 
     def moved(change: FloatArray) -> FloatArray:
-        return bearing_state(bearing, np.array(load) + change, SPEED, -1.0).displacement
+        return bearing_state(bearing, np.array(load) + change, SPEED, -1.0, film).displacement
 
     columns = [(moved(change) - moved(-change)) / (2 * step) for change in step * np.eye(2)]
-    exact = bearing_state(bearing, np.array(load), SPEED, -1.0).flexibility
+    exact = bearing_state(bearing, np.array(load), SPEED, -1.0, film).flexibility
     assert pytest.approx(exact, rel=2e-5, abs=1e-5 * np.abs(exact).max()) == np.array(columns).T
 
 
 def test_springs_rigid_bearings_and_clearances_left_open() -> None:
     matrix = ((3e8, 1e8), (-2e8, 5e8))
-    state = bearing_state(LinearBearing(0.0, matrix), np.array([1e4, 2e4]), SPEED, 1.0)
+    state = bearing_state(LinearBearing(0.0, matrix), np.array([1e4, 2e4]), SPEED, 1.0, "finite")
     assert np.array(matrix) @ state.displacement == pytest.approx([1e4, 2e4])
-    assert not np.any(bearing_state(RigidBearing(0.0), np.array([1e4, 2e4]), SPEED, 1.0).displacement)
+    assert not np.any(bearing_state(RigidBearing(0.0), np.array([1e4, 2e4]), SPEED, 1.0, "finite").displacement)
     assert replace(JOURNAL, radial_clearance=None).clearance == pytest.approx(1.5e-3 * 0.08)  # a share of the radius
 
 
 def test_a_film_that_cannot_carry_is_no_solution() -> None:
-    assert unsolved(bearing_state, JOURNAL, np.array([0.0, 1e12]), SPEED, 1.0).code == "journal"
+    assert unsolved(bearing_state, JOURNAL, np.array([0.0, 1e12]), SPEED, 1.0, "finite").code == "journal"
 
 
 def test_friction_grows_with_eccentricity() -> None:
-    state = bearing_state(JOURNAL, np.array([0.0, -50e3]), SPEED, 1.0)
-    plain = bearing_state(JOURNAL, np.zeros(2), SPEED, 1.0).friction_power
-    assert state.friction_power == pytest.approx(plain / sqrt(1 - state.eccentricity_ratio**2))
-    assert state.specific_pressure == pytest.approx(50e3 / (0.16 * 0.11))
+    """The short bearing neglects the moment W c e sin(phi)/2 of the load, which the film of finite width has."""
+    load = np.array([0.0, -50e3])
+    plain = bearing_state(JOURNAL, np.zeros(2), SPEED, 1.0, "finite").friction_power
+    for film in FILMS:
+        state = bearing_state(JOURNAL, load, SPEED, 1.0, film)
+        moment = 50e3 * JOURNAL.clearance * state.eccentricity_ratio / 2 * sin(state.attitude) * (film == "finite")
+        shear = plain / sqrt(1 - state.eccentricity_ratio**2)
+        assert state.friction_power == pytest.approx(shear + SPEED * moment)
+        assert state.specific_pressure == pytest.approx(50e3 / (0.16 * 0.11))
+
+
+def test_a_bearing_wider_than_the_table_carries_in_proportion_to_its_width() -> None:
+    """Beyond L/D = 2 the load per width stays, so the same eccentricity belongs to it; the short bearing goes on."""
+    ends = [
+        bearing_state(replace(JOURNAL, width=width), np.array([0.0, -4e6 * width]), SPEED, 1.0, "finite")
+        for width in (0.32, 0.8)
+    ]
+    assert ends[1].displacement == pytest.approx(ends[0].displacement, rel=1e-12)
+    assert ends[1].friction_power == pytest.approx(2.5 * ends[0].friction_power, rel=1e-12)
 
 
 # Shafts in two bearings

@@ -185,8 +185,8 @@ def test_doubled_heat_doubles_every_rise() -> None:
 
 def _doubled(journal: Journal):  # type: ignore[no-untyped-def]  # noqa: ANN202
     def operate(viscosity: float) -> tuple[float, float]:
-        loss, eccentricity = journal.operate(viscosity)
-        return 2 * loss, eccentricity
+        loss, leakage = journal.operate(viscosity)
+        return 2 * loss, leakage
 
     return operate
 
@@ -218,7 +218,7 @@ def test_conduction_alone_is_that_of_a_rod() -> None:
     """Half of the heat leaves through each of two shafts, whose ends are as cold as the oil."""
     diameter, length = 0.16, 0.3
     rod = rod_conductance(((length, diameter, 0.0),), 46.0)
-    cold = Journal(0, 0.16, 0.1, 1e-4, 1e3, rod, lambda _: (0.0, 0.5), oil_flow=1e3)
+    cold = Journal(0, 0.16, 1e-4, 1e3, rod, lambda _: (0.0, 0.0), oil_flow=1e3)
     network = changed(
         constant(plain(PAIR)),
         {"spray.fling_off_factor": 0.0, "mist_convection_factor": 0.0, "mesh": MeshHeat(5000.0, 300.0, 1.0, 0.0)},
