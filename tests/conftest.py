@@ -13,8 +13,10 @@ import httpx
 import pytest
 from hypothesis import HealthCheck, settings
 
+from app.settings import settings as limits
 from app.workers.start_up import StartUp
 from tests.support.in_process import InProcess
+from tests.support.pools import InlineWorkers
 from tests.support.server import running_server
 from tests.support.solved import FOLDER, remember_solutions
 
@@ -36,7 +38,7 @@ def pytest_configure(config: pytest.Config) -> None:
         folder = TemporaryDirectory(prefix="tribodrive-solved-")
         config.add_cleanup(folder.cleanup)
         os.environ[FOLDER] = folder.name
-        asyncio.run(StartUp().run())
+        asyncio.run(StartUp().run(InlineWorkers(limits())))
 
 
 @pytest.fixture

@@ -184,9 +184,9 @@ def _places(
     """Solve thermal EHL at the places of the flank that decide; None without a loaded contact."""
     film_at = formula_film(inputs.mesh)
     thinnest = find_thinnest(inputs.mesh.distribution, mesh, flash, film_at)
-    if thinnest is None:
-        return None
     mean = inputs.mesh.temperatures.bulk
+    if thinnest is None or mean is None:
+        return None
     return solve_places(
         inputs.mesh,
         mesh,

@@ -14,14 +14,6 @@ from app.workers.start_up import StartUp
 from tests.support.pools import InlineWorkers
 
 
-class Compiled(StartUp):
-    """A start-up that is over."""
-
-    @property
-    def warm(self) -> list[str]:
-        return [stage.name for stage in STAGES]
-
-
 class InProcess(httpx.BaseTransport):
     """A transport to a service of its own, for clients that are not asynchronous."""
 
@@ -29,7 +21,9 @@ class InProcess(httpx.BaseTransport):
         app, limits = create_app(), settings()
         app.state.settings = limits
         app.state.pool = pool = InlineWorkers(limits)
-        app.state.start_up = Compiled()
+        app.state.start_up = start_up = StartUp()
+        for stage in STAGES:
+            start_up._advance(stage.name, 100)
         app.state.studies = StudyAdmission(limits, pool)
         app.state.answers = LRUCache(limits.answers_mb * MEBIBYTE, getsizeof=len)
         self._transport = httpx.ASGITransport(app, raise_app_exceptions=False)

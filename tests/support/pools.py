@@ -2,13 +2,13 @@
 
 import asyncio
 import pickle
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Hashable, Sequence
 from typing import Any
 
 from app.settings import Settings
 from app.studies.points import Chunk, Point, Question
 from app.studies.requests import Overrides
-from app.workers.pool import Outcome, Pool
+from app.workers.pool import Job, Pool
 
 
 class InlinePool:
@@ -24,21 +24,20 @@ class InlinePool:
 
 
 class InlineWorkers(Pool):
-    """The service's pool without processes: a call is pickled as for a worker, and ends before `submit` returns."""
+    """The service's pool without processes: a call is pickled as for a worker, and ends as it is queued."""
 
     def __init__(self, settings: Settings) -> None:
         super().__init__(settings, ())
         self.alive = self.size
 
-    def submit(self, owner: object, function: Callable[..., Any], *arguments: Any, is_single: bool = True) -> Outcome:
-        del owner, is_single
-        function, arguments = pickle.loads(pickle.dumps((function, arguments)))  # noqa: S301  of this test
-        outcome: Outcome = asyncio.get_running_loop().create_future()
+    def _queued(self, owner: Hashable, function: Callable[..., Any], arguments: Any, *, is_single: bool) -> Job:
+        job = Job(owner, pickle.dumps((function, arguments)), is_single, asyncio.get_running_loop().create_future())
+        called, given = pickle.loads(job.call)  # noqa: S301  of this test
         try:
-            outcome.set_result(pickle.loads(pickle.dumps(function(*arguments))))  # noqa: S301
+            job.outcome.set_result(pickle.loads(pickle.dumps(called(*given))))  # noqa: S301
         except Exception as error:  # noqa: BLE001  any error of the call
-            outcome.set_exception(error)
-        return outcome
+            job.outcome.set_exception(error)
+        return job
 
 
 class ScriptedPool:
