@@ -107,7 +107,8 @@ PLACES = {
     "heat_balance.results.BearingHeat": "H18; film oil_flow: H12; friction_power: D5",
     "heat_balance.results.HeatFlow": "heat-balance#network",
     "heat_balance.results.HeatLosses": (
-        "H6; oil_acceleration jets: H9; windage: H8; bearings: D5; couplings: D9; pumping other total: heat-balance#losses"
+        "H6; oil_acceleration jets: H9; windage: H8; bearings: D5; couplings: D9; "
+        "pumping other total: heat-balance#losses"
     ),
     "heat_balance.results.Balance": "H17",
     "heat_balance.results.BulkEstimates": "R8; iso_ts_6336_22_bulk: H13",
