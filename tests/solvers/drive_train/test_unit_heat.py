@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
+from solvers.drive_train import outcome as outcomes
 from solvers.drive_train import solve
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, RigidBearing, Shaft
-from solvers.drive_train.outcome import outcome
 from solvers.drive_train.results import DriveTrainResult
 from solvers.drive_train.unit_heat import warm_unit
 from solvers.drive_train.warm_up import _least_safety
@@ -221,7 +221,7 @@ def test_units_that_are_turned_and_mirrored(inputs: DriveTrainInputs, angle: flo
 
 def test_a_time_as_cool_as_the_oil_is_not_the_least_safe() -> None:
     """Without a hot place the safety has no bound; only an undefined temperature leaves the least unknown."""
-    warm = outcome(TURBO)
+    warm = outcomes.outcome(TURBO)
     assert warm.safety is not None
     cool = replace(warm, safety=None)
     undefined = replace(cool, temperature=np.full_like(cool.temperature, np.nan))
