@@ -10,9 +10,10 @@ from app.evaluate import answer
 from solvers.errors import InvalidInput
 from tests.support.fast_pairs import random_request
 from tests.support.properties import seeds
-from tests.support.requests import GONE, changed
+from tests.support.requests import GONE, changed, example
 
 SCUFFING = "/v1/scuffing"
+DRY = {"model.lubrication": "closed_form", "detail": "summary"}
 STEPS = 1e-3  # ratio of neighbouring speeds less one
 
 
@@ -166,3 +167,51 @@ def test_what_is_measured_is_met_or_reported(random: np.random.Generator) -> Non
     elif abs(heat["drain_c"] - wanted) > 0.01:
         assert heat["drain_deviation_k"] == pytest.approx(heat["drain_c"] - wanted, abs=1e-6)
         assert "losses_overestimated" in codes
+
+
+def test_what_flatters_is_an_assumption() -> None:
+    """Aligned flanks, K_A = K_v = 1 and no relief are listed unless they are given."""
+    random = np.random.default_rng(1)
+    request = changed(pair(random), {"modifications": GONE})
+    assumed = {each["field"] for each in solved(request)["assumptions"]}
+    flattering = {"load.application_factor", "load.dynamic_factor"} | {
+        f"modifications.{name}" for name in ("helix_slope_um", "tip_relief_um", "root_relief_um")
+    }
+    assert flattering <= assumed
+    given = {"load.application_factor": 1, "load.dynamic_factor": 1, "modifications.helix_slope_um": 0}
+    told = {each["field"] for each in solved(request, given)["assumptions"]}
+    assert flattering - told == set(given)
+
+
+def test_a_wide_pair_says_what_a_misalignment_would_do() -> None:
+    """Where b/d > 1 and no misalignment is given, a note states the safety with 25 µm of helix slope."""
+    base = changed(pair(np.random.default_rng(1)), {"modifications": GONE, "cooling": GONE})
+    gears = base["gears"]
+    diameter = gears["module_mm"] * gears["pinion"]["teeth"] / np.cos(np.radians(gears["helix_angle_deg"]))
+
+    def notes(width: float, slope: float) -> list[str]:
+        found = solved(base, {"gears.face_width_mm": width * diameter, "modifications.helix_slope_um": slope})
+        return [each["message"] for each in found["warnings"] if each["code"] == "no_misalignment"]
+
+    assert notes(0.9, 0) == notes(1.1, 25) == []
+    (told,) = notes(1.1, 0)
+    tilted = solved(base, {"gears.face_width_mm": 1.1 * diameter, "modifications.helix_slope_um": 25})
+    assert f"would make S_B {tilted['safety']['blok_factor']:.3g} instead of" in told
+
+
+def test_jets_faster_than_the_teeth_make_no_energy() -> None:
+    jets = {"jet_speed_m_per_s": 80, "gear_flow_l_per_min": 500, "wetting_share": 1, "band": False}
+    slow = {"operation.pinion_speed_rpm": 2000, "operation.power_kw": 400, "cooling": jets}
+    found = answer("/v1/drive-train", changed(example("starter-turbo-gear-heat"), DRY | slow))
+    assert found["heat"]["losses"]["oil_acceleration_w"] < 0.0 < found["heat"]["losses"]["jets_w"]
+    assert found["losses"]["oil_acceleration_w"] == 0.0
+    assert found["losses"]["efficiency"] < 1.0
+
+
+def test_litres_per_second_are_asked_about_by_name() -> None:
+    """2.33 l/s typed as l/min: the refusal or the warning names the flow, not the load."""
+    request = example("starter-turbo-pair-heat")
+    with pytest.raises(Unprocessable) as refusal:
+        answer(SCUFFING, changed(request, DRY | {"cooling": {"gear_flow_l_per_min": 2.33, "band": False}}))
+    assert refusal.value.path == "cooling.gear_flow_l_per_min"
+    assert "l/min" in refusal.value.message

@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
+from solvers.drive_train import outcome as outcomes
 from solvers.drive_train import solve
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, RigidBearing, Shaft
 from solvers.drive_train.results import DriveTrainResult
 from solvers.drive_train.unit_heat import warm_unit
+from solvers.drive_train.warm_up import _least_safety
 from solvers.errors import NoSolution
 from solvers.gears.inputs import GearTeeth
 from solvers.heat_balance import Cooling
@@ -215,3 +217,14 @@ def test_units_that_are_turned_and_mirrored(inputs: DriveTrainInputs, angle: flo
         assert temperatures(solve(image)) == pytest.approx(one, rel=1e-9)
     gears = temperatures(solve(reversed_ends(inputs)))[:5]  # bearings change their order
     assert gears == pytest.approx(one[:5], rel=1e-9)
+
+
+def test_a_time_as_cool_as_the_oil_is_not_the_least_safe() -> None:
+    """Without a hot place the safety has no bound; only an undefined temperature leaves the least unknown."""
+    warm = outcomes.outcome(TURBO)
+    assert warm.safety is not None
+    cool = replace(warm, safety=None)
+    undefined = replace(cool, temperature=np.full_like(cool.temperature, np.nan))
+    assert _least_safety([cool, warm, replace(warm, safety=2 * warm.safety)]) == warm.safety
+    assert _least_safety([cool, cool]) is None
+    assert _least_safety([warm, undefined]) is None
