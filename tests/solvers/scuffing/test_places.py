@@ -19,7 +19,7 @@ from tests.support.modified_pairs import random_pair
 from tests.support.properties import seeds
 
 EXACT = 1e-6
-# the largest load over the face is flat there, so that rounding moves the profile line through it by a step of the search
+# the load over the face is flat at its maximum, so that rounding moves the profile line there by a step of the search
 LOOSE = {"^hottest_path": 1e-5}
 PARTLY_LOADED = 1e-5  # lines loaded in part are cut anew until TE moves by less than 1e-6 of the approach
 PARTS = r"^(?!(flash|contact_temperature|film|safety|hottest_path|micropitting|wear)\.)"
