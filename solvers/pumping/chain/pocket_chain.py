@@ -188,7 +188,7 @@ def _record_ends(
 def _asked(gas: Gas, upstream: float, downstream: float) -> float:
     """Compute the Mach number of an expansion from one pressure to another; 0 if there is no expansion."""
     warming = (downstream / upstream) ** ((1.0 - gas.exponent) / gas.exponent) - 1.0
-    return np.sqrt(max(2.0 / (gas.exponent - 1.0) * warming, 0.0))
+    return float(np.sqrt(max(2.0 / (gas.exponent - 1.0) * warming, 0.0)))
 
 
 @kernel

@@ -22,7 +22,7 @@ from solvers.scuffing.inputs import (
     Temperatures,
 )
 from solvers.scuffing.micropitting.film import Conditions, films
-from solvers.scuffing.micropitting.local import FlankFilm, contacts_of
+from solvers.scuffing.micropitting.local import FlankFilm, contacts_of, flank_film
 from solvers.scuffing.micropitting.mean_values import helical_load_factor
 from solvers.scuffing.micropitting.oil import density, pressure_viscosity, viscosity
 from solvers.scuffing.micropitting.oil_test import film_of_test
@@ -31,6 +31,7 @@ from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.safety_results import Scuffing
 from solvers.scuffing.thermal.flank import contacts_under_load
 from tests.solvers.scuffing.test_symmetries import mirrored, misaligned_spur_pairs, solved
+from tests.support.gear_pairs import UNDERCUT_PAIR
 from tests.support.properties import examples
 from tests.support.random_pairs import COARSE, designs
 
@@ -280,3 +281,35 @@ def test_relief_moves_the_thinnest_film_off_the_ends_of_the_path() -> None:
     assert least(found) > least(even)
     assert found.micropitting is not None
     assert 0.0 < (found.micropitting.local.at_psi or 0.0) < 1.0
+
+
+@pytest.mark.parametrize("slope", [-20e-6, 0.0, 20e-6])
+def test_b_and_d_belong_to_single_contact(slope: float) -> None:
+    """Rounding once decided whether D was a point of single or of double contact, which is a step of 13 %."""
+    design = replace(PAIR, modifications=Modifications(helix_slope=slope))
+    found = solve_scuffing(checked(design))
+    assert found.micropitting is not None
+    path, plane = found.distribution.path_of_contact, found.distribution.path_of_contact.plane
+    film = flank_film(checked(design), found.distribution)
+    assert film is not None
+    points = {each.point: each.ratio for each in found.micropitting.local.points}
+    for name, inwards in (("B", 1e-9), ("D", -1e-9)):
+        x = characteristic_points(path)[name]
+        beside = np.array([x + inwards * path.length, x - inwards * path.length])
+        single, double = film.at(beside, np.full(2, x / path.length * plane.face_width))
+        assert points[name] == pytest.approx(single, rel=1e-6)
+        assert points[name] < 0.99 * double
+
+
+def test_an_unloaded_end_does_not_wear() -> None:
+    """At a base circle one surface stands still; without load there is no wear all the same, and the curve has no gap."""
+    design = LoadDistributionInputs(
+        UNDERCUT_PAIR, Load(20.0, 100.0), Modifications(tip_relief=80e-6, root_relief=80e-6), resolution=COARSE
+    )
+    found = solve_scuffing(checked(design, micropitting=MicropittingCheck(wear_coefficient=1e-18)))
+    assert found.wear is not None
+    unloaded = found.distribution.flank.line_load.max(axis=1) == 0.0
+    near = np.isnan(found.distribution.flank.pressure).any(axis=1)
+    assert (unloaded & near).any()
+    assert (found.wear.pinion[unloaded] == 0.0).all()
+    assert (found.wear.wheel[unloaded] == 0.0).all()

@@ -19,6 +19,8 @@ from tests.support.modified_pairs import random_pair
 from tests.support.properties import seeds
 
 EXACT = 1e-6
+# the load over the face is flat at its maximum, so that rounding moves the profile line there by a step of the search
+LOOSE = {"^hottest_path": 1e-5}
 PARTLY_LOADED = 1e-5  # lines loaded in part are cut anew until TE moves by less than 1e-6 of the approach
 PARTS = r"^(?!(flash|contact_temperature|film|safety|hottest_path|micropitting|wear)\.)"
 # The paper's feature line is a diagonal; its mirror image is the other one.
@@ -70,7 +72,7 @@ def test_a_spur_pair_and_its_mirror_image(random: np.random.Generator) -> None:
         return values[:, ::-1] if values.ndim == 2 else values
 
     without = f"{PARTS}|{DIAGONAL}|{PLACE}"
-    assert not differences(one, other, turned, tolerance=tolerance(one), without=without)
+    assert not differences(one, other, turned, tolerance=tolerance(one), loose=LOOSE, without=without)
 
 
 @seeds(3, 300)
@@ -89,7 +91,9 @@ def test_a_pair_whose_wheel_drives(random: np.random.Generator) -> None:
         return turned[:, ::-1] if turned.ndim == 2 else turned
 
     points = r"^micropitting\.(local|standard)\.points|^micropitting\.test\.|^hottest_path.status"
-    assert not differences(one, other, expected, tolerance=tolerance(one), without=f"{PARTS}|{PLACE}|{points}")
+    assert not differences(
+        one, other, expected, tolerance=tolerance(one), loose=LOOSE, without=f"{PARTS}|{PLACE}|{points}"
+    )
     if one.hottest_path is not None and other.hottest_path is not None:
         assert one.hottest_path.status == other.hottest_path.status[::-1]
     ratios = [{each.point: each.ratio for each in found.micropitting.local.points} for found in (one, other)]
