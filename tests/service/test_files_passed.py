@@ -77,9 +77,9 @@ def test_a_coupling_request_passes_at_most_14_files_before_the_solver(monkeypatc
 
     service = asyncio.run(entered_by_the_service())
     monkeypatch.setattr(worker, "prepare", lambda *_: None)  # of this process
-    worker.perform(0, (), calls[0])  # a warm worker has looked up every name and unit once
+    worker.perform(0, (), Path("compiling"), calls[0])  # a warm worker has looked up every name and unit once
     with modules_entered() as working:
-        worker.perform(0, (), calls[0])
+        worker.perform(0, (), Path("compiling"), calls[0])
     assert {"app/workers/pool.py", "app/http/json_route.py"} <= service
     assert {"app/workers/worker.py", "solvers/coupling/model.py"} <= working
     passed = {path for path in service | working if path.startswith("app/")}
