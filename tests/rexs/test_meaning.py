@@ -275,7 +275,7 @@ IN_A_CASE = [row for row in MEANINGS if row[0] not in {"shaft_section", "cylindr
 @seeds(6, 200)
 def test_an_attribute_of_a_load_case_acts_as_the_same_attribute_of_the_model(rng: np.random.Generator) -> None:
     """The request with the changes of the load case is the request of the file that states the value in its model."""
-    type_, name, value, size, endpoint, path, _ = random.Random(seed).choice(IN_A_CASE)
+    type_, name, value, size, endpoint, path, _ = IN_A_CASE[rng.integers(len(IN_A_CASE))]
     of_model, of_case = gear_set(**{type_: {name: (value, size)}}), gear_set()
     of_case.cases.append({each["id"]: {name: (value, size)} for each in of_case.components if each["type"] == type_})
     expected = stage_of(of_model)["requests"][endpoint]
