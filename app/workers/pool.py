@@ -15,8 +15,10 @@ from collections.abc import Callable, Hashable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
-from tempfile import TemporaryDirectory
+from shutil import rmtree
+from tempfile import mkdtemp
 from typing import Any
+from weakref import finalize
 
 from anyio import BrokenWorkerProcess, CapacityLimiter, to_process
 from cachetools import LRUCache
@@ -60,7 +62,8 @@ class Pool:
         self._settings = settings
         self._preparation = (settings.worker_memory_mb * MEBIBYTE, tuple(modules))
         self._limiter = CapacityLimiter(settings.workers)
-        self._folder = TemporaryDirectory(prefix="tribodrive-", ignore_cleanup_errors=True)  # see `Clock`
+        self._folder = Path(mkdtemp(prefix="tribodrive-"))  # see `compiling.Clock`
+        finalize(self, rmtree, self._folder, ignore_errors=True)
         self._running: list[Job] = []
         self._waiting: list[Job] = []
         self._arrival, self._trouble = asyncio.Event(), asyncio.Event()
@@ -156,7 +159,7 @@ class Pool:
     async def _carry_out(self, job: Job) -> bool:
         """Run a call and set the result or the exception of its future. Return True if the worker can be used again."""
         job.timeout = asyncio.timeout(None if job.is_single else self._settings.deadline_s)
-        file = Path(self._folder.name) / str(id(job))
+        file = self._folder / str(id(job))
         watch = asyncio.create_task(_watch(job, file))
         try:
             async with job.timeout:

@@ -137,15 +137,6 @@ def test_no_torque_is_missing_not_zero() -> None:
         assert "pinion_torque_n_m" not in stage["requests"][LOAD]["load"]
 
 
-def test_behind_a_bevel_stage_there_is_no_power() -> None:
-    unit = three_stages()
-    gear = next(each["id"] for each in unit.components if each["type"] == "cylindrical_stage")
-    unit.components[gear - 1]["type"] = "bevel_stage"
-    found = answer(unit)
-    assert "stage_not_modelled" in codes(found)
-    assert [len(each["requests"][LOAD].get("load", {})) for each in found["stages"]] == [0, 0]
-
-
 def test_load_cases() -> None:
     unit = three_stages("1.4")
     shaft = next(each["id"] for each in unit.components if each["type"] == "shaft")
