@@ -547,7 +547,12 @@ def test_the_worked_warm_up() -> None:
 
     A start at 20 C: the body temperatures of pinion and wheel differ most after 153 s, by 19.7 K.
     """
-    plain = {"cooling.casing": GONE, "cooling.gear_flow_l_per_min": 140.08, "friction_coefficient": 0.04}
+    plain = {
+        "cooling.casing": GONE,
+        "cooling.gear_flow_l_per_min": 140.08,
+        "friction_coefficient": 0.04,
+        "model.bearing_film": "short",
+    }
     found = started({**plain, "start_c": 50, "until_s": GONE})
     warm = found["warm_up"]
     times = dict(zip(warm["nodes"], warm["time_95_s"], strict=True))

@@ -1,4 +1,4 @@
-"""At its start the service compiles kernels: requests wait for their own, and what prevents serving ends the process."""
+"""At its start the service compiles kernels: requests wait for theirs, and what prevents serving ends the process."""
 
 import asyncio
 import subprocess

@@ -359,7 +359,7 @@ def test_refused_with_place_and_code(case: str) -> None:
 EXAMPLE = changed(
     CLOSED,
     {
-        "model": {**CLOSED["model"], "coupling_friction": "sliding"},
+        "model": {**CLOSED["model"], "coupling_friction": "sliding", "bearing_film": "short"},
         "friction_coefficient": 0.04,
         "temperatures": {"bulk_c": 95, "oil_c": 50, "scuffing_c": 220},
         "pinion_shaft.sections.3.outer_diameter_mm": 238.8,

@@ -101,7 +101,7 @@ def units(draw: st.DrawFn) -> DriveTrainInputs:
             gravity_angle=draw(st.floats(-pi, pi)),
         ),
         coupling_friction=draw(st.sampled_from(["elastic_plastic", "sliding"])),
-        bearing_film=draw(st.sampled_from(["finite", "short"])),
+        bearing_film="finite",
         face_stations=21,
     )
 

@@ -34,7 +34,7 @@ def short_load(eccentricity: float) -> float:
 
 @kernel
 def width_effect(eccentricity: float) -> float:
-    """Load of the short bearing of L/D = 1 over that of a long one whose film is the half with positive pressure."""
+    """Load of the short bearing of L/D = 1 over that of a long one with half its film (Eq. D18)."""
     square = eccentricity**2
     rest = 1 - square
     return (2 + square) * sqrt((pi**2 * rest + 16 * square) / (pi**2 * rest + 4 * square)) / (6 * rest)
