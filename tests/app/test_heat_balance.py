@@ -15,10 +15,14 @@ from app.errors import InvalidBody, Unprocessable
 from app.evaluate import answer, evaluate
 from app.examples import examples
 from app.figures.data import Figure, NoFigure
+from app.pages.cases import Asked
+from app.pages.query import pairs_of
 from app.pages.results import cards, groups
+from app.pages.templating import page_path
 from app.schema.scuffing import ScuffingRequest
 from solvers.lubricants import Lubricant
 from tests.support.fast_pairs import random_request
+from tests.support.pages import html_of
 from tests.support.requests import GONE, accepted, changed, solved
 
 SCUFFING = "/v1/scuffing"
@@ -604,3 +608,9 @@ def test_results_and_answers_can_be_kept(name: str) -> None:
     kept = pickle.loads(pickle.dumps((request, response.result)))  # noqa: S301  our own
     assert kept[0] == request
     assert type(kept[1]) is type(response.result)
+
+
+def test_the_form_shows_the_method_that_ran() -> None:
+    request = changed(FAST, {"detail": GONE, "load.pinion_speed_rpm": 40 * RPM, "load.power_kw": 4000})
+    found = Asked(page_path(BY_PATH[SCUFFING]), pairs_of(request))
+    assert "by default: between" in html_of(found)
