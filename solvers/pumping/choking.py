@@ -123,8 +123,8 @@ class _Demand:
             gas, limit = self._mesh.gas, CELL_STEP_LIMIT // _SOLVES
             flow = flow_at(self._mesh, self._space, exp(log_speed), self._slices, cell_step_limit=limit)
             pressure = flow.largest_pressure * gas.critical_ratio / gas.pressure
-            demands = (log(max(demand, 1e-12)) for demand in (flow.exit_demand, flow.inflow_demand))
-            self._excess[log_speed] = (log(pressure), *demands)
+            outflow, inflow = (log(max(demand, 1e-12)) for demand in (flow.exit_demand, flow.inflow_demand))
+            self._excess[log_speed] = log(pressure), outflow, inflow
         return self._excess[log_speed]
 
 
