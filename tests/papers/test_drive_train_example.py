@@ -198,7 +198,8 @@ def test_safety_by_the_thermal_film(row: int) -> None:
         in_the_table = thermal_safety_of_fifty_points(inputs, result, TABLE_PLACE[row])
         assert sampled < in_the_table
     assert in_the_table == pytest.approx(THERMAL[row - 1], abs=0.0009)
-    assert 0.997 * sampled <= found.thermal_ehl_profile <= sampled + 1e-6  # films start from each other's: 2e-7 apart
+    # the places that decide may lie on another profile line; their extreme is refined to 0.3 %
+    assert 0.98 * sampled <= found.thermal_ehl_profile <= 1.003 * sampled
     assert found.minimum == found.blok_flank
 
 

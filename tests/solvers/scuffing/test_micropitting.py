@@ -302,7 +302,7 @@ def test_b_and_d_belong_to_single_contact(slope: float) -> None:
 
 
 def test_an_unloaded_end_does_not_wear() -> None:
-    """At a base circle one surface stands still; without load nothing wears all the same, and the curve has no gap."""
+    """At a base circle one surface stands still; without load there is no wear, and the curve has no gap."""
     design = LoadDistributionInputs(
         UNDERCUT_PAIR, Load(20.0, 100.0), Modifications(tip_relief=80e-6, root_relief=80e-6), resolution=COARSE
     )
