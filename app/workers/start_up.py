@@ -40,28 +40,32 @@ class StartUp:
         """Names of the stages that are ready."""
         return [name for name, percent in self._percent.items() if percent == 100]
 
-    def require(self, stages: Collection[Stage] = STAGES) -> None:
-        """Raise WarmingUp if one of the stages is not ready."""
-        if not {stage.name for stage in stages} <= {*self.warm}:
+    def require(self, stages: Collection[Stage] | None = None) -> None:
+        """Raise WarmingUp if one of the stages is not ready; None: any stage."""
+        if not {stage.name for stage in (STAGES if stages is None else stages)} <= {*self.warm}:
             report = ", ".join(f"{name} {percent} %" for name, percent in self._percent.items())
             raise WarmingUp(f"The solvers are being compiled, which happens once after installation: {report}")
 
     async def wait(self, http: Request, stages: Collection[Stage]) -> None:
         """Wait until the stages of a request are ready. Raises WarmingUp after `WAIT_S`, ClientGone if nobody waits."""
-        waiting = [self._ready[stage.name].wait() for stage in stages if self._percent[stage.name] < 100]
-        if waiting:
+        names = {stage.name for stage in stages} - {*self.warm}
+        if names:
+            waiting = [self._ready[name].wait() for name in names & self._ready.keys()]
             with suppress(TimeoutError):
                 await unless_gone(http, asyncio.gather(*waiting), lambda: WAIT_S)
             self.require(stages)
 
-    async def run(self, pool: Pool) -> None:
-        """Compile all stages. If a process fails, compile once more in an empty folder."""
+    async def run(self, pool: Pool | None = None) -> None:
+        """Compile all stages. If a process fails, compile once more in an empty folder.
+
+        If compiled kernels cannot be kept, the workers of `pool` compile them, so that the stages wait for a worker.
+        """
         began = time.monotonic()
         if FOLDER is None:
             logger.warning(
                 "tribodrive: compiled kernels cannot be kept; every worker compiles all of them at its start"
             )
-            while pool.alive <= 0:  # noqa: ASYNC110  the pool counts its workers; nothing else waits for them
+            while pool is not None and pool.alive <= 0:  # noqa: ASYNC110  the pool counts its workers; nothing else waits for them
                 await asyncio.sleep(1.0)
         elif not await self._compile(STAGES):
             logger.warning("a process that compiled kernels died: all are compiled anew")

@@ -8,7 +8,7 @@ import httpx
 import pytest
 import uvicorn
 
-from app.client import OPTIONS, AsyncTribodrive, ProblemError, Study, StudyError, Tribodrive
+from app.client import OPTIONS, AsyncTribodrive, ProblemError, ServiceError, Study, StudyError, Tribodrive
 
 pytestmark = pytest.mark.ci
 
@@ -154,3 +154,24 @@ def test_a_study_without_end_is_an_error() -> None:
 def test_idle_connections_end_before_the_service_closes_them() -> None:
     """If the service closed a connection first, a request on its way would get no answer."""
     assert OPTIONS["limits"].keepalive_expiry < uvicorn.Config("app.main:app").timeout_keep_alive
+
+
+def test_a_broken_connection_and_deep_json_are_errors_of_the_service() -> None:
+    def breaks(_: httpx.Request) -> httpx.Response:
+        raise httpx.ConnectError("refused")
+
+    with pytest.raises(ServiceError, match="refused"):
+        Tribodrive(transport=httpx.MockTransport(breaks)).coupling({})
+    with pytest.raises(ServiceError, match="refused"):
+        list(Tribodrive(transport=httpx.MockTransport(breaks)).sweep({}))
+    with pytest.raises(ServiceError, match="not a JSON object"):
+        behind(httpx.Response(200, text="[" * 100_000)).coupling({})
+
+
+@pytest.mark.parametrize(("indices", "words"), [((0,), "has 2 points, but 1 arrived"), ((0, 0, 1), "0 twice")])
+def test_missing_and_doubled_points_of_a_sweep_are_noticed(indices: tuple[int, ...], words: str) -> None:
+    header = {"type": "sweep", "case": "", "outputs": [], "axes": [], "total": 2}
+    points = [{"type": "point", "index": index, "at": [], "out": [], "status": "ok"} for index in indices]
+    lines = "".join(f"{json.dumps(line)}\n" for line in [header, *points, {"type": "end"}])
+    with pytest.raises(StudyError, match=words):
+        list(behind(httpx.Response(200, text=lines)).sweep({}))

@@ -3,6 +3,7 @@
 import io
 import json
 import os
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -131,3 +132,13 @@ def test_what_is_refused_says_why(endpoint: str, text: str, message: str) -> Non
     assert refused.returncode == 1
     assert message in refused.stderr
     assert refused.stdout == ""
+
+
+def test_a_taken_port_is_one_line() -> None:
+    with socket.create_server(("127.0.0.1", 0)) as other:
+        port = str(other.getsockname()[1])
+        command = [sys.executable, "-m", "app", "--port", port]
+        ended = subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+    assert ended.returncode == 1
+    assert len(ended.stderr.splitlines()) == 1
+    assert f"cannot listen on port {port} of 127.0.0.1" in ended.stderr

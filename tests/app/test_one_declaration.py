@@ -243,8 +243,8 @@ def test_an_input_at_the_root_is_one_declaration_too() -> None:
 class _AtOnce:
     """Stand-in for the workers and the start-up: it runs a function at once and accepts every endpoint."""
 
-    def require(self, _path: str) -> None:
-        """Accept every endpoint."""
+    async def wait(self, _http: object, _stages: object) -> None:
+        """Let every request pass."""
 
     async def calculate(self, _http: object, function: Callable[..., bytes], *arguments: Any) -> bytes:
         return function(*arguments)

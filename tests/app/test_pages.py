@@ -19,8 +19,8 @@ from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import Unprocessable, Unreadable
 from app.evaluate import evaluate, written
 from app.examples import examples
-from app.pages import views
-from app.pages.cases import Asked
+from app.pages import csv, views
+from app.pages.cases import Asked, solved
 from app.pages.form import State, form
 from app.pages.query import MATRIX, body_of, link, normalised, pairs_of, pairs_of_query
 from app.pages.results import NOT_RESULTS
@@ -386,6 +386,19 @@ def test_reports_curl_is_the_request() -> None:
     *_, address, _, _, _, body = shlex.split(unescape(command[1]))
     assert address == "http://host/v1/pumping"
     assert json.loads(body) == example.request
+
+
+def test_every_curve_that_a_page_lists_is_a_file() -> None:
+    """The shafts of a drive train and its couplings are lists; their curves are files too."""
+    case = asked(examples()["starter-turbo-gear-drive-train"])
+    answer = solved(case.calculation, case.pairs, None, "curves").response
+    listed = csv.curves(answer)
+    assert {"shafts.0.curves", "shafts.1.curves"} <= {*listed}
+    for path in listed:
+        header, *lines = csv.curve(answer, path).decode().splitlines()
+        assert "," in header
+        assert lines
+    assert csv.curve(answer, "shafts.0.curves") != csv.curve(answer, "shafts.1.curves")
 
 
 def test_csv_of_values_and_curves() -> None:

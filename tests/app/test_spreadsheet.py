@@ -33,12 +33,17 @@ def test_a_number_is_a_number(text: str) -> None:
     assert rows(csv_of([[text]])) == [[text]]
 
 
-FORMULAS = ("=1+1", "-1+1", "+cmd", "@sum", "--1", "-", "-1_0", "-x", "-1 ", "-\u0661", "\t=1", "\r=1", "\n=1", "-1;=2")
+FORMULAS = ("=1+1", "-1+1", "+cmd", "@sum", "--1", "-", "-1_0", "-x", "-1 ", "-\u0661", "\t=1", "\r=1", "\n=1", "-1;2")
 
 
 @pytest.mark.parametrize("text", FORMULAS)
 def test_a_formula_is_text(text: str) -> None:
     assert rows(csv_of([[text]])) == [[f"'{text}"]]
+
+
+def test_a_separator_of_lists_begins_a_cell() -> None:
+    """Where ; separates the cells, the text after it is a cell of its own."""
+    assert rows(csv_of([["a; =1;b;@c;2"]])) == [["a; '=1;b;'@c;2"]]
 
 
 @pytest.mark.parametrize("name", NEGATIVE)

@@ -1,4 +1,4 @@
-"""At its start the service compiles kernels: requests wait for theirs, and what prevents serving ends the process."""
+"""At its start the service compiles kernels: requests wait for their own, and what prevents serving ends it."""
 
 import asyncio
 import subprocess
@@ -107,9 +107,8 @@ async def serving():
         await asyncio.sleep(60)
 asyncio.run(serving())
 """
-    ended = subprocess.run(
-        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=60, check=False
-    )
+    command = [sys.executable, "-c", code]
+    ended = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=60, check=False)
     assert ended.returncode == 1
     assert 'cannot serve any more: RuntimeError("can\'t start new thread")' in ended.stderr
 
@@ -127,7 +126,7 @@ def test_compilation_does_not_count_against_the_deadline(monkeypatch: pytest.Mon
         while not processes.calls:  # noqa: ASYNC110
             await asyncio.sleep(0.01)
         (job,) = pool._running
-        file = Path(pool._folder.name) / str(id(job))
+        file = pool._folder / str(id(job))
         file.touch()
         await asyncio.sleep(0.5)
         assert not call.done()

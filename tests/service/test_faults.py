@@ -1,5 +1,6 @@
 """Faults of workers and clients (deaths, stops, disconnects, deadlines, full queues) cost only their own request."""
 
+import os
 import random
 import signal
 import subprocess
@@ -63,6 +64,16 @@ def test_killed_workers_cost_only_their_own_requests() -> None:
         assert set(outcomes) <= {"right", "worker_lost"}
         assert outcomes["worker_lost"] <= KILLS
         assert httpx.get(f"{address}/readyz", timeout=30).is_success
+
+
+def test_a_stop_of_the_whole_group_lets_calls_in_flight_end() -> None:
+    """systemd sends SIGTERM to every process of the service; the workers leave their end to the service."""
+    with faulty_server(workers=1) as (process, address), ThreadPoolExecutor() as clients:
+        call = clients.submit(httpx.post, f"{address}/sleep/3", timeout=PATIENCE_S)
+        wait_for_metric(address, RUNNING, 1)
+        os.killpg(process.pid, signal.SIGTERM)
+        assert call.result().status_code == 200
+        process.wait(PATIENCE_S)
 
 
 def outcomes_while_killing(process: subprocess.Popen[str], address: str) -> Counter[str]:

@@ -168,10 +168,10 @@ def test_runs_on_without_standard_streams(closed: str, tmp_path: Path) -> None:
 def test_the_unspecified_address_serves_both_families(tmp_path: Path) -> None:
     """The service treats a client in the same way over IPv4 and over IPv6.
 
-    Over both, a proxy on this machine is trusted: the log shows the client that `X-Forwarded-For` names.
+    Over both, a proxy that the settings name is trusted: the log shows the client that `X-Forwarded-For` names.
     """
     log = tmp_path / "log"
-    with started_server(host="::", log=log) as (_, address):
+    with started_server(host="::", log=log, proxies="127.0.0.1") as (_, address):
         addresses = [address, address.replace("127.0.0.1", "[::1]")]
         for each in addresses:
             wait_until_open(each)
