@@ -84,7 +84,7 @@ def test_the_film_is_asked_by_default(post: Post) -> None:
 
     With equidistant points only, this factor is 3.0844 (50 points) or 3.0814 (201 points).
     """
-    safety = answered(post, {"model": GONE})["safety"]
+    safety = answered(post, {"model": {"bearing_film": "short"}})["safety"]
     assert safety["thermal_ehl_profile"] == pytest.approx(3.081, abs=0.001)
     assert safety["minimum"] == safety["blok_flank"]
 
