@@ -11,6 +11,7 @@ import pytest
 from app.calculations import BY_PATH
 from app.evaluate import evaluate
 from app.rexs.document import read
+from app.rexs.table import UNITS
 from app.rexs.unit import gear_unit
 from app.schema.fields import leaves
 from solvers.gears.gear import involute
@@ -690,3 +691,17 @@ def test_a_name_that_no_standard_has_is_listed() -> None:
     unit = gear_set(cylindrical_stage={"colour_of_paint": (1.0, "none")})
     (unused,) = [each for each in stage_of(unit)["ignored"] if each["attribute"] == "colour_of_paint"]
     assert unused["reason"] == "the models have no such input"
+
+
+def test_prefixes_of_units_are_powers_of_ten() -> None:
+    """The units of a quantity that differ by a prefix alone differ by the power of ten that the prefix means."""
+    prefixes = {"k": 1e3, "M": 1e6, "G": 1e9, "mu": 1e-6, "µ": 1e-6}
+    pairs = [
+        (group[prefix + unit], factor * size)
+        for group in UNITS
+        for unit, size in group.items()
+        for prefix, factor in prefixes.items()
+        if unit and "^" not in unit and prefix + unit in group
+    ]
+    assert len(pairs) >= 7
+    assert all(found == pytest.approx(wanted, rel=1e-12) for found, wanted in pairs)

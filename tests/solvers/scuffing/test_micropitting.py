@@ -292,7 +292,7 @@ def test_b_and_d_belong_to_single_contact(slope: float) -> None:
     path, plane = found.distribution.path_of_contact, found.distribution.path_of_contact.plane
     film = flank_film(checked(design), found.distribution)
     assert film is not None
-    points = {each.point: each.ratio for each in found.micropitting.local.points}
+    points = {str(each.point): each.ratio or 0.0 for each in found.micropitting.local.points}
     for name, inwards in (("B", 1e-9), ("D", -1e-9)):
         x = characteristic_points(path)[name]
         beside = np.array([x + inwards * path.length, x - inwards * path.length])
