@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from math import radians
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -293,7 +294,8 @@ def test_b_and_d_belong_to_single_contact(slope: float) -> None:
     film = flank_film(checked(design), found.distribution)
     assert film is not None
     points = {str(each.point): each.ratio or 0.0 for each in found.micropitting.local.points}
-    for name, inwards in (("B", 1e-9), ("D", -1e-9)):
+    ends: tuple[tuple[Literal["B", "D"], float], ...] = (("B", 1e-9), ("D", -1e-9))
+    for name, inwards in ends:
         x = characteristic_points(path)[name]
         beside = np.array([x + inwards * path.length, x - inwards * path.length])
         single, double = film.at(beside, np.full(2, x / path.length * plane.face_width))
