@@ -201,7 +201,7 @@ def test_the_headline_shows_the_band() -> None:
     request = ScuffingRequest.model_validate(FAST)
     response = evaluate(BY_PATH[SCUFFING], request)
     card = cards(response, response.inputs)[0]
-    assert card.value == "1.85 (1.66 to 2.02)"
+    assert card.value == "1.85 (1.43 to 2.00)"
     least = response.heat.band.safety[0]
     assert card.remark == f"{response.safety.blok_factor:.3g}, at worst {least:.3g}: moderate"
     assert card.level == "near"
@@ -342,7 +342,7 @@ def test_figures_show_the_answers_numbers() -> None:
     )
     band = figure("safety-band")
     assert {round(mark.y, 9) for mark in band.panels[0].marks} >= {round(end, 9) for end in heat["band"]["safety"]}
-    assert "1.85 (1.66 to 2.02)" in band.finding
+    assert "1.85 (1.43 to 2.00)" in band.finding
 
 
 def test_the_figure_over_the_flow_passes_through_the_case_and_agrees_with_a_sweep() -> None:
