@@ -148,8 +148,7 @@ def test_a_stated_default_changes_the_band_alone(random: np.random.Generator) ->
 def test_what_is_measured_is_met_or_reported(random: np.random.Generator) -> None:
     """A measured temperature is met, or the answer says by how much it is not; no loss is negative."""
     nodes = ["pinion_flank_c", "pinion_body_c", "wheel_flank_c", "wheel_body_c", "drain_c"]
-    request = changed(pair(random), {f"cooling.{name}": GONE for name in ("wetting_share", "other_w")})
-    request = changed(request, {"cooling.band": False, "temperatures.bulk_method": "heat_balance"})
+    request = changed(pair(random), {"cooling": {"band": False}, "temperatures.bulk_method": "heat_balance"})
     heat = solved(request)["heat"]
     node = str(random.choice(nodes))
     gear, _, part = node.partition("_")
