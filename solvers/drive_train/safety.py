@@ -187,6 +187,7 @@ def _places(
     if thinnest is None:
         return None
     mean = inputs.mesh.temperatures.bulk
+    assert mean is not None
     return solve_places(
         inputs.mesh,
         mesh,
@@ -194,7 +195,7 @@ def _places(
         film_at,
         (hottest, thinnest),
         lambda y: _of_both_surfaces(inputs, bulk(y)),
-        lambda y: bulk(y) - mean,
+        lambda y: np.subtract(bulk(y), mean),
     )
 
 
