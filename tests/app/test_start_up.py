@@ -3,16 +3,18 @@
 import asyncio
 import subprocess
 import sys
+import tempfile
 from contextlib import suppress
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any, cast
 
 import pytest
+from anyio import to_process
 from fastapi import Request
 
 from app.calculations import BY_PATH, LINE_CONTACT, PUMPING, SCUFFING
-from app.errors import ClientGone, WarmingUp
+from app.errors import ClientGone, DeadlineExceeded, WarmingUp
 from app.settings import Settings
 from app.workers import pool as pools
 from app.workers import start_up
@@ -116,7 +118,7 @@ asyncio.run(serving())
 def test_compilation_does_not_count_against_the_deadline(monkeypatch: pytest.MonkeyPatch) -> None:
     """A call past its deadline goes on while its worker compiles, and ends when the worker no longer does."""
     processes = Processes()
-    monkeypatch.setattr(pools.to_process, "run_sync", processes.run_sync)
+    monkeypatch.setattr(to_process, "run_sync", processes.run_sync)
     monkeypatch.setattr(pools, "TICK_S", 0.02)
 
     async def check() -> None:
@@ -131,7 +133,7 @@ def test_compilation_does_not_count_against_the_deadline(monkeypatch: pytest.Mon
         await asyncio.sleep(0.5)
         assert not call.done()
         file.unlink()
-        with pytest.raises(pools.DeadlineExceeded):
+        with pytest.raises(DeadlineExceeded):
             await asyncio.wait_for(call, 2.0)
         for task in tasks:
             task.cancel()
@@ -145,7 +147,7 @@ def test_kernels_of_a_folder_that_cannot_be_written_are_used(tmp_path: Path, mon
     existing = tmp_path / "mounted" / "name"
     existing.mkdir(parents=True)
     (existing / "kernel.nbc").write_bytes(b"machine code")
-    monkeypatch.setattr(kernel_cache.tempfile, "tempdir", str(tmp_path))
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
     folder = kernel_cache._own_folder("name", existing)
     assert folder is not None
     assert (folder / "kernel.nbc").read_bytes() == b"machine code"
