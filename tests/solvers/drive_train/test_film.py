@@ -119,7 +119,7 @@ def test_friction_is_the_integrated_shear() -> None:
     eccentricity, ratio = 0.7, 0.8
     film = solve_film(eccentricity, ratio, 4)
     angle = np.concatenate([[0.0], film.angle])
-    mean = np.trapezoid(film.pressure, film.across, axis=1)
+    mean = np.asarray(np.trapezoid(film.pressure, film.across, axis=1))
     gap = 1 + eccentricity * np.cos(angle)
     middle = (gap[1:] + gap[:-1]) / 2
     gradient = float(middle @ np.diff(np.concatenate([mean[-1:], mean]))) / 2
