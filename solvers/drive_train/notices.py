@@ -75,7 +75,7 @@ def _film_notices(
     if model == "finite" and ratio > WIDEST:
         message = (
             f"the bearing is {ratio:.2f} times as wide as its diameter; above {WIDEST:.0f} its film carries per width "
-            f"what the film of a bearing with a ratio of {WIDEST:.0f} carries, which is less than it does"
+            f"what the film of a bearing with a ratio of {WIDEST:.0f} carries, less than its own"
         )
         yield Notice("wide_bearing", message, f"{field}.width")
     if film is not None and eccentricity is not None and (film < THIN_FILM or eccentricity > LARGE_ECCENTRICITY):

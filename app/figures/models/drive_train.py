@@ -197,14 +197,16 @@ def journals(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
         for way, symbol in (("X", "u_B/c"), ("Y", "v_B/c"))
     )
     panels, films = [], list[float]()
-    for name, state, shaft in zip(("pinion", "wheel"), result.shafts, inputs.shafts, strict=True):
+    used = (result.derived.pinion_shaft, result.derived.wheel_shaft)
+    for name, state, shaft, derived in zip(("pinion", "wheel"), result.shafts, inputs.shafts, used, strict=True):
         lines, marks = [], []
         for index, (bearing, given) in enumerate(zip(state.bearings, shaft.bearings, strict=True)):
             if bearing.min_film is not None:
                 films.append(bearing.min_film)
-            if bearing.eccentricity_ratio is None or not isinstance(given, JournalBearing):
+            clearance = derived.bearings[index].radial_clearance
+            if bearing.eccentricity_ratio is None or clearance is None or not isinstance(given, JournalBearing):
                 continue
-            x, y = (float(part) / given.clearance for part in bearing.displacement)
+            x, y = (float(part) / clearance for part in bearing.displacement)
             hue = (Hue.BLUE, Hue.VERMILLION)[index]
             named = name == "wheel"  # the legend stands beside the last panel
             path = _locus(x, y, bearing.reaction, law_of(given, inputs.bearing_film))
