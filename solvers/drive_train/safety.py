@@ -49,13 +49,13 @@ def contact_of(inputs: DriveTrainInputs) -> ScuffingInputs:
     """Return the inputs of the mesh with a bulk temperature.
 
     If the inputs neither give a bulk temperature nor ask for its calculation, the mean of the tooth temperatures is
-    used.
+    used. Given tooth temperatures count as a given bulk temperature where no method is chosen.
     """
-    temperatures = inputs.mesh.temperatures
-    if temperatures.bulk is not None or temperatures.bulk_method != "given":
+    temperatures, heat = inputs.mesh.temperatures, inputs.heat
+    by_teeth = temperatures.bulk_method is None and temperatures.flanks is None and heat.states_teeth
+    if temperatures.bulk is not None or not (by_teeth or temperatures.bulk_method == "given"):
         return inputs.mesh
-    mean = (inputs.heat.pinion_bulk + inputs.heat.wheel_bulk) / 2
-    return replace(inputs.mesh, temperatures=replace(temperatures, bulk=mean))
+    return replace(inputs.mesh, temperatures=replace(temperatures, bulk=sum(heat.teeth) / 2, bulk_method="given"))
 
 
 def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap, thermal: ThermalLead) -> FlankHeat:
@@ -237,5 +237,6 @@ def _safety(inputs: DriveTrainInputs, hottest: list[float | None], worst: Place 
     factors = [None if contact is None else safety_factor(limit, oil, contact) for contact in hottest]
     finite = [factor for factor in factors if factor is not None]
     feature, places = factors[2:] if len(factors) > 2 else (None, None)
-    least = min(finite) if len(finite) == len(factors) else None
+    # A known contact without a factor is as cool as the oil: its safety has no bound and is not the least.
+    least = min(finite, default=None) if None not in hottest else None
     return TrainSafety(factors[0], factors[1], worst, feature, places, least)
