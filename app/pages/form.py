@@ -388,7 +388,9 @@ def _options(leaf: Leaf, text: str, used: Any) -> tuple[tuple[str, str], ...]:
         return ()
     default = "" if leaf.default is None else text_of(leaf.default)
     if default not in named:
-        open_label = cited(leaf.declared.default_text or "choose …") if used is None else f"by default: {words(used)}"
+        open_label = (
+            cited(leaf.declared.default_text or "choose …") if used is None else f"by default: {words(text_of(used))}"
+        )
         named = {"": open_label, **named}
     if text:
         named.setdefault(text, text)
