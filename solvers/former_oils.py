@@ -71,7 +71,7 @@ class OilChoice(OilBySheet):
         given = {item.name: getattr(self, item.name) for item in fields(self)}
         if sheet := self.sheet():
             names = {item.name for item in fields(OilSheet)} - {item.name for item in fields(OilBySheet)}
-            return replace(sheet, **{name: given[name] for name in names})
+            return replace(sheet, **{name: given[name] for name in names & given.keys()})
         names = {item.name for item in fields(Lubricant)}
         properties = {name: value for name, value in given.items() if name in names and value is not None}
         return None if self.viscosity is None else Lubricant(**properties)

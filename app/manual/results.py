@@ -44,8 +44,10 @@ PLACES = {
     "pumping.results.Stroke": "P2; max_area min_area: Milian 5",
     "pumping.results.SpacesResult": (
         "P9; peak_pressure_ratio min_pressure_ratio: P6; peak_axial_mach peak_axial_velocity: P8; "
-        "radial_choked axial_choked: P11; max_temperature_rise hottest_position: P10"
+        "radial_choked axial_choked inflow_choked: P11; max_temperature_rise hottest_position: P10"
     ),
+    "pumping.results.EndOfFace": "P11",
+    "pumping.results.Choking": "P11; slices: P15",
     "pumping.results.MassFlow": "pumping#mass-flows; net_uncertainty radial_uncertainty: P15",
     "pumping.results.Balance": "pumping#numerics",
     "pumping.results.Totals": "P9",

@@ -97,7 +97,7 @@ def tree(model: type[Documented]) -> Branch:
 
     If several leaves are declared with the same title, each of these leaves gets the title of a section as a
     supplement. This is the innermost section whose title distinguishes the leaf from the other leaves. If no section
-    distinguishes the leaf, its title stays as declared.
+    alone does, the titles of all sections around it are added.
     """
     namesakes: dict[str, dict[str, list[str]]] = defaultdict(dict)
     for way in _ways(model):
@@ -108,8 +108,8 @@ def tree(model: type[Documented]) -> Branch:
     for title, places in namesakes.items():
         for path, sections in places.items():
             telling = (name for name in sections if sum(name in others for others in places.values()) == 1)
-            section = next(telling, None) if len(places) > 1 else None
-            titles[path] = f"{title}, {section}" if section else title
+            supplement = next(telling, ", ".join(sections)) if len(places) > 1 else ""
+            titles[path] = f"{title}, {supplement}" if supplement else title
     return Branch("", "", "", model, _below(model, (), titles))
 
 

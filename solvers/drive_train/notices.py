@@ -6,7 +6,7 @@ from dataclasses import replace
 from solvers.contact.notices import high_pressure
 from solvers.coupling.notices import tall_tooth
 from solvers.drive_train.checks import NAMES
-from solvers.drive_train.film import WIDEST
+from solvers.drive_train.film.law import WIDEST
 from solvers.drive_train.inputs import BearingFilm, DriveTrainInputs, JournalBearing
 from solvers.drive_train.results import (
     CouplingResult,

@@ -116,7 +116,18 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
 
 
 def sized_flow(inputs: DriveTrainInputs) -> float | None:
-    """Oil flow to the gears that is sized where none is given [m^3/s]; None if one is given, or if no balance runs."""
+    """Compute the oil flow to the gears that is sized where none is given.
+
+    Parameters
+    ----------
+    inputs : DriveTrainInputs
+        The unit.
+
+    Returns
+    -------
+    float or None
+        Oil flow [m^3/s]; None if a flow is given or no heat balance runs.
+    """
     if inputs.mesh.cooling.gear_flow is not None or not asks_for_balance(inputs):
         return None
     unbanded = replace(inputs, mesh=replace(inputs.mesh, cooling=replace(inputs.mesh.cooling, band=False)))

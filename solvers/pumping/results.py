@@ -268,12 +268,12 @@ class Choking:
     slices are doubled until no verdict is doubtful, or until the largest number that the speed allows is reached.
     """
 
-    outflow: ChokingWord = quantity("choking of the outflow", text="at the ends of the face")
-    inflow: ChokingWord = quantity("choking of the inflow", text="of the air that fills the spaces at the ends")
-    clearances: ChokingWord = quantity("choking of the radial clearances")
-    outflow_mach: float = quantity("Mach number of the outflow", "Ma_out", text="above 1: choked")
+    outflow: ChokingWord = quantity("verdict on the outflow", text="at the ends of the face")
+    inflow: ChokingWord = quantity("verdict on the inflow", text="of the air that fills the spaces at the ends")
+    clearances: ChokingWord = quantity("verdict on the radial clearances")
+    outflow_mach: float = quantity("Mach number of the outflow that decides", "Ma_out", text="above 1: choked")
     outflow_uncertainty: float = quantity("uncertainty of the outflow's Mach number", text="relative")
-    inflow_mach: float = quantity("Mach number of the inflow", "Ma_in", text="above 1: choked")
+    inflow_mach: float = quantity("Mach number of the inflow that decides", "Ma_in", text="above 1: choked")
     inflow_uncertainty: float = quantity("uncertainty of the inflow's Mach number", text="relative")
     slices: int = quantity(
         "slices of the verdict", "N_v", text="as many as the verdict took; the numbers are of `slices`"

@@ -562,7 +562,9 @@ def test_the_least_safety_along_the_path_is_that_of_the_answer(name: str) -> Non
     _, answer = solved(name)
     panels = figure(name, "safety").panels
     bloks = [next(line for line in panel.lines if line.title == "Blok") for panel in panels]
-    assert min(np.nanmin(blok.y) for blok in bloks) == pytest.approx(answer.safety.blok_factor, rel=1e-9)
+    # the profile line is the one through the hottest solved contact, where Blok's flash is nearly the largest
+    least = min(np.nanmin(blok.y) for blok in bloks)
+    assert answer.safety.blok_factor * (1 - 1e-9) <= least < answer.safety.blok_factor * 1.01
     assert np.nanmin(bloks[0].y) == pytest.approx(answer.safety.feature_line_factor, rel=1e-9)
     for panel in panels:
         assert [level.value for level in panel.levels if level.limit] == [1.0]

@@ -181,7 +181,8 @@ def test_bulk_is_the_mean_of_both_flanks_and_each_surface_has_its_own_by_thermal
         for flash in found[name][f"{gear}_flash_k"]
         if flash is not None
     )
-    assert found["contact_temperature"]["thermal_ehl_max_c"] == pytest.approx(hottest, rel=1e-9)
+    # the hottest solved place lies on the hottest profile line, perhaps between two of its points
+    assert hottest * (1 - 1e-9) <= found["contact_temperature"]["thermal_ehl_max_c"] < hottest + 0.1
 
 
 def test_band_and_verdict_are_those_of_the_lower_end() -> None:

@@ -185,7 +185,9 @@ def test_the_oil_is_given_in_one_of_three_ways(path: str) -> None:
     html = empty(BY_PATH[f"/v1{path}"])
     ways = re.findall(r'type="radio" name="pick:lubricant\.\w+" value="lubricant\.(\w+)"', html)
     assert ways[:3] == ["iso_vg", "viscosity_pa_s", "kinematic_viscosity_40_mm2_per_s"]
-    assert ways[3:] == ["kinematic_viscosity_100_mm2_per_s", "viscosity_index"]
+    assert ways[3:5] == ["kinematic_viscosity_100_mm2_per_s", "viscosity_index"]
+    coefficients = ["pressure_viscosity_per_gpa", "pressure_viscosity_38_per_gpa"]
+    assert ways[5:] == ([] if path == "/coupling" else coefficients)
 
 
 def test_a_grade_leaves_out_viscosity_and_its_temperature() -> None:
@@ -390,7 +392,7 @@ def test_reports_curl_is_the_request() -> None:
 
 def test_every_curve_that_a_page_lists_is_a_file() -> None:
     """The shafts of a drive train and its couplings are lists; their curves are files too."""
-    case = asked(examples()["starter-turbo-gear-drive-train"])
+    case = asked("starter-turbo-gear-drive-train")
     answer = solved(case.calculation, case.pairs, None, "curves").response
     listed = csv.curves(answer)
     assert {"shafts.0.curves", "shafts.1.curves"} <= {*listed}

@@ -320,7 +320,7 @@ SLACK = (
             ),
         ),
         (LOAD_DISTRIBUTION, {"load.power_kw": 0.05}, SLACK.format(0.367)),
-        (TRAIN, {"operation.power_kw": 0.01}, SLACK.format(0.605)),
+        (TRAIN, {"operation.power_kw": 0.01}, SLACK.format(0.606)),
         ("/v1/coupling", {"coupling.tooth_height_mm": 13}, DIAMETER),
         (TRAIN, {"couplings.0.coupling.tooth_height_mm": 13}, DIAMETER),
         (

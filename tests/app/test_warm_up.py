@@ -40,7 +40,8 @@ def test_every_kernel_is_warm_after_the_warm_up() -> None:
 
 def test_endpoints_open_stage_by_stage() -> None:
     assert BY_PATH["/v1/coupling"].stage is COUPLING
-    assert BY_PATH["/v1/scuffing"].stage is LINE_CONTACT
+    assert BY_PATH["/v1/scuffing/line-contact"].stage is LINE_CONTACT
+    assert LINE_CONTACT not in BY_PATH["/v1/scuffing"].stages(lambda _: "closed_form")
     assert {calculation.stage for calculation in CALCULATIONS} <= set(STAGES)
 
 

@@ -49,7 +49,7 @@ def test_friction_and_bulk_temperature_follow_from_the_oil() -> None:
 
 
 def test_a_bulk_temperature_is_not_given_and_estimated() -> None:
-    oil, both = iso_vg(220), scuffing.Temperatures(bulk=353.15)
+    oil, both = iso_vg(220), scuffing.Temperatures(bulk=353.15, bulk_method="estimated")
     assert refused(lambda: check(oil=oil, temperatures=both))[0] == "exclusive"
     given = check(oil=oil, temperatures=scuffing.Temperatures(bulk=353.15, bulk_method="given"))
     assert given.contact_temperature

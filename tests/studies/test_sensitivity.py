@@ -17,7 +17,10 @@ from tests.support.studies import lines_of, study_of
 COUPLING = examples()["pahl-axial-displacement"]
 UNIT = "starter-turbo-gear-drive-train"
 CLOSED_FORM = {"request.model": {"lubrication": "closed_form"}}
-INTEGRAL = CLOSED_FORM | {"request.pinion_shaft.sections.3.outer_diameter_mm": 238.8}
+INTEGRAL = CLOSED_FORM | {
+    "request.pinion_shaft.sections.3.outer_diameter_mm": 238.8,
+    "request.model.bearing_film": "short",
+}
 """The turbo gear whose pinion is as thick as its reference diameter, 238.8 mm. The slopes below hold for this gear."""
 FACE_LOAD_FACTOR = "load.face_load_factor"
 

@@ -16,7 +16,7 @@ from app.figures.sketches import shafts
 from app.figures.units import MM, axis
 from app.figures.wording import number, percent, without_rounding
 from solvers.drive_train import solve
-from solvers.drive_train.film import FilmLaw, film_at
+from solvers.drive_train.film.law import FilmLaw, film_at
 from solvers.drive_train.inputs import DriveTrainInputs, Effects, JournalBearing, Shaft, Vector2
 from solvers.drive_train.results import DriveTrainResult, ShaftResult
 from solvers.drive_train.safety import contact_of

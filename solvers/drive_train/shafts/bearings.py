@@ -10,7 +10,8 @@ from math import cos, hypot, pi, sin, sqrt
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.drive_train.film import LARGEST_ECCENTRICITY, FilmLaw, eccentricity_at, film_at, film_law
+from solvers.drive_train.film.law import FilmLaw, eccentricity_at, film_at, film_law
+from solvers.drive_train.film.table import LARGEST_ECCENTRICITY
 from solvers.drive_train.inputs import Bearing, BearingFilm, JournalBearing, LinearBearing
 from solvers.errors import NoSolution
 

@@ -93,7 +93,18 @@ def bulk_rule(inputs: ScuffingInputs, distribution: LoadDistribution, flash: Fla
 
 
 def sized_flow(inputs: ScuffingInputs) -> float | None:
-    """Oil flow to the gears that is sized where none is given [m^3/s]; None if one is given, or if no balance runs."""
+    """Compute the oil flow to the gears that is sized where none is given.
+
+    Parameters
+    ----------
+    inputs : ScuffingInputs
+        The pair.
+
+    Returns
+    -------
+    float or None
+        Oil flow [m^3/s]; None if a flow is given or no heat balance runs.
+    """
     has_oil = inputs.known_oil is not None
     method = method_asked(inputs.temperatures, inputs.cooling, has_oil=has_oil)
     if inputs.cooling.gear_flow is not None or not has_oil or method not in {None, "heat_balance"}:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from solvers.drive_train.film import eccentricity_at, film_at, film_law
+from solvers.drive_train.film.law import eccentricity_at, film_at, film_law
 from solvers.drive_train.film.reynolds import FilmSolution, solve_film
 from solvers.drive_train.film.table import PLACES, RATIOS, nodes, ratios, short_load, table
 from solvers.drive_train.inputs import BearingFilm, JournalBearing

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from solvers.arrays import FloatArray
-from solvers.drive_train.film import film_at, film_law
+from solvers.drive_train.film.law import film_at, film_law
 from solvers.drive_train.gap.face_curves import face_crown, face_mean, face_slope
 from solvers.drive_train.inputs import (
     BearingFilm,

@@ -25,7 +25,7 @@ from solvers.pumping import (
     PumpingSetup,
     Spaces,
 )
-from solvers.pumping import model as pumping_model
+from solvers.pumping import verdict as pumping_verdict
 from solvers.pumping.choking import choking_speeds
 from solvers.pumping.model import solve
 from solvers.pumping.spaces import flow_at
@@ -125,7 +125,7 @@ def test_no_speed(speed: float) -> None:
 
 
 def test_slow_speed_is_refused_with_what_would_fit(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pumping_model, "flow_at", partial(flow_at, cell_step_limit=30_000))
+    monkeypatch.setattr(pumping_verdict, "flow_at", partial(flow_at, cell_step_limit=30_000))
     setup = replace(PLAIN, model=PumpingModel(spaces=Spaces.PINION))
     with pytest.raises(InvalidInput) as refusal:
         solved(setup, 2000.0)

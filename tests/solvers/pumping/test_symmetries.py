@@ -58,6 +58,8 @@ def test_grooves_of_a_spur_pair_counted_from_its_other_end(random: Generator) ->
     def expected(name: str, values: FloatArray, _: str | None) -> FloatArray:
         last = name.rpartition(".")[2]
         for end, opposite in ENDS.items():
+            if f".{end}_end." in name:
+                last = f"{end}_end"
             if re.match(rf"{end}(_|$)", last):
                 found = before[name.replace(end, opposite)].values
                 assert not isinstance(found, str)
