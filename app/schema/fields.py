@@ -96,8 +96,8 @@ def tree(model: type[Documented]) -> Branch:
     """Return the whole request or response as one section without a name.
 
     If several leaves are declared with the same title, each of these leaves gets the title of a section as a
-    supplement. This is the innermost section whose title distinguishes the leaf from the other leaves. If no section
-    alone does, the titles of all sections around it are added.
+    supplement. This is the innermost section whose title distinguishes the leaf from the other leaves. Where no section
+    does for several leaves, these get the titles of all sections around them; a single such leaf keeps its title.
     """
     namesakes: dict[str, dict[str, list[str]]] = defaultdict(dict)
     for way in _ways(model):
@@ -106,10 +106,14 @@ def tree(model: type[Documented]) -> Branch:
             namesakes[leaf.meaning.title][_path(way)] = [section.meaning.title for section in reversed(around)]
     titles = {}
     for title, places in namesakes.items():
-        for path, sections in places.items():
-            telling = (name for name in sections if sum(name in others for others in places.values()) == 1)
-            supplement = next(telling, ", ".join(sections)) if len(places) > 1 else ""
-            titles[path] = f"{title}, {supplement}" if supplement else title
+        telling = {
+            path: next((name for name in sections if sum(name in others for others in places.values()) == 1), None)
+            for path, sections in places.items()
+        }
+        untold = [path for path, section in telling.items() if section is None]
+        for path, section in telling.items():
+            supplements = [section] if section else places[path] if len(untold) > 1 else []
+            titles[path] = ", ".join([title, *supplements]) if len(places) > 1 else title
     return Branch("", "", "", model, _below(model, (), titles))
 
 
