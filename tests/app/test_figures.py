@@ -295,6 +295,7 @@ def test_choking_scan_repeats_the_pumping_endpoint_and_crosses_its_limits_at_the
     assert pressure.y[3] == pytest.approx(max(peaks), rel=1e-9)
 
 
+@pytest.mark.ci
 def test_the_curve_of_choking_bends_where_gas_reaches_an_end_supersonic() -> None:
     """Above the bend, gas reaches an end of the face at supersonic speed.
 

@@ -97,6 +97,7 @@ def test_a_line_that_is_no_progress_ends_nothing(monkeypatch: pytest.MonkeyPatch
     asyncio.run(check())
 
 
+@pytest.mark.ci
 def test_a_task_that_fails_ends_the_process_with_the_reason() -> None:
     code = """
 import asyncio
@@ -156,6 +157,7 @@ def test_kernels_of_a_folder_that_cannot_be_written_are_used(tmp_path: Path, mon
     assert kernel_cache._own_folder("name", existing) is None
 
 
+@pytest.mark.ci
 def test_a_first_call_from_python_says_once_that_it_compiles(tmp_path: Path) -> None:
     code = """
 from solvers.coupling.crowning import *
