@@ -281,13 +281,15 @@ def test_contact_track_is_as_wide_as_the_hertz_contact() -> None:
 def test_choking_scan_repeats_the_pumping_endpoint_and_crosses_its_limits_at_the_speeds_found() -> None:
     _, answer = solved("milian-case-1-choking")
     data = figure("milian-case-1-choking", "choking")
+    outflow, _, pressures = data.panels
+    assert answer.inflow_choking_speed_rpm is None
     limits = (answer.axial_choking_speed_rpm, answer.radial_choking_speed_rpm)
-    for panel, found in zip(data.panels, limits, strict=True):
+    for panel, found in zip((outflow, pressures), limits, strict=True):
         (line,) = panel.lines
         (limit,) = [level.value for level in panel.levels if level.limit]
         assert line.x.size >= 24
         assert np.interp(found, line.x, line.y) == pytest.approx(limit, rel=5e-3)
-    pressure = data.panels[1].lines[0]
+    pressure = pressures.lines[0]
     body = {**examples()["milian-case-1-choking"].request, "operation": {"pinion_speed_rpm": float(pressure.x[3])}}
     pumping = BY_PATH["/v1/pumping"]
     spaces = evaluate(pumping, pumping.request.model_validate({**body, "detail": "summary"}))

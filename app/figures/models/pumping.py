@@ -92,10 +92,10 @@ def _maps(inputs: PumpingInputs, result: PumpingResult, name: str, scale: Scale,
 
 def scan(inputs: ChokingInputs, result: ChokingSpeeds) -> ChokingCurves:
     """Compute Mach numbers and peak pressure at evenly spaced speeds around the choking speeds."""
-    found = (result.radial_choking_speed, result.axial_choking_speed, result.inflow_choking_speed)
-    speeds = [speed for speed in found if speed is not None]
+    outwards = result.radial_choking_speed, result.axial_choking_speed
+    speeds = [speed for speed in (*outwards, result.inflow_choking_speed) if speed is not None]
     limit = inputs.search_limit / RPM
-    end = min(BEYOND * max(speeds), limit) if len(speeds) == len(found) else limit
+    end = limit if None in outwards else min(BEYOND * max(speeds), limit)  # many inflows choke nowhere
     start = min([LOWEST * end, *(0.8 * speed for speed in speeds)])
     return shown(speed_scan(inputs.setup, np.linspace(start, end, SPEEDS) * RPM))
 
