@@ -62,8 +62,10 @@ class Pool:
         self._settings = settings
         self._preparation = (settings.worker_memory_mb * MEBIBYTE, tuple(modules))
         self._limiter = CapacityLimiter(settings.workers)
-        self._folder = Path(mkdtemp(prefix="tribodrive-"))  # see `compiling.Clock`
-        finalize(self, rmtree, self._folder, ignore_errors=True)
+        self._folder: Path | None = None  # see `compiling.Clock`
+        with suppress(OSError):  # where nothing can be written, compilation counts against the deadline
+            self._folder = Path(mkdtemp(prefix="tribodrive-", dir=FOLDER))
+            finalize(self, rmtree, self._folder, ignore_errors=True)
         self._running: list[Job] = []
         self._waiting: list[Job] = []
         self._arrival, self._trouble = asyncio.Event(), asyncio.Event()
@@ -159,7 +161,7 @@ class Pool:
     async def _carry_out(self, job: Job) -> bool:
         """Run a call and set the result or the exception of its future. Return True if the worker can be used again."""
         job.timeout = asyncio.timeout(None if job.is_single else self._settings.deadline_s)
-        file = self._folder / str(id(job))
+        file = None if self._folder is None else self._folder / str(id(job))
         watch = asyncio.create_task(_watch(job, file))
         try:
             async with job.timeout:
@@ -179,7 +181,7 @@ class Pool:
             return not (is_late or is_lost)
         finally:
             watch.cancel()
-            with suppress(OSError):
+            if file is not None:
                 file.unlink(missing_ok=True)
         return True
 
@@ -191,9 +193,9 @@ class Pool:
             raise BrokenWorkerProcess from error
 
 
-async def _watch(job: Job, file: Path) -> None:
+async def _watch(job: Job, file: Path | None) -> None:
     """Move the end of a call while its worker compiles kernels, by at most `COMPILING_S` altogether."""
-    while job.compiled_s < COMPILING_S:
+    while file is not None and job.compiled_s < COMPILING_S:
         await asyncio.sleep(TICK_S)
         if os.path.exists(file):  # noqa: PTH110, ASYNC240  in memory, takes a microsecond
             job.compiled_s += TICK_S

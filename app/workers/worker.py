@@ -57,7 +57,7 @@ def _end_with_the_service(service: int) -> None:
     os._exit(1)
 
 
-def perform(memory_bytes: int, modules: Sequence[str], file: Path, call: bytes) -> tuple[Any, list[str]]:
+def perform(memory_bytes: int, modules: Sequence[str], file: Path | None, call: bytes) -> tuple[Any, list[str]]:
     """Call a pickled function with its arguments. Return the result and the lines that were logged during the call.
 
     `file` exists while a kernel is being compiled.

@@ -62,14 +62,13 @@ def count_progress(address: str) -> int:
 def test_cold_start_answers_coupling_first(tmp_path: Path) -> None:
     with started_server(environment={"NUMBA_CACHE_DIR": str(tmp_path)}, log_level="error") as (process, address):
         wait_until_open(address)
-        waiting = httpx.post(address + LINE_CONTACT.endpoint, json=LINE_CONTACT.request, timeout=20)
-        assert waiting.status_code == 503
-        assert waiting.json()["type"].endswith("warming_up")
-        assert int(waiting.headers["retry-after"]) > 0
-        assert "line contact " in waiting.json()["detail"]
+        with pytest.raises(httpx.ReadTimeout):  # the request waits for its kernels
+            httpx.post(address + LINE_CONTACT.endpoint, json=LINE_CONTACT.request, timeout=1)
         ready = httpx.get(f"{address}/readyz", timeout=5)
         assert ready.status_code == 503
-        assert "coupling" in ready.json()["detail"]
+        assert ready.json()["type"].endswith("warming_up")
+        assert int(ready.headers["retry-after"]) > 0
+        assert "line contact " in ready.json()["detail"]
         wait_until(lambda: coupling_status(address) == 200, 60)
         assert httpx.get(f"{address}/readyz", timeout=5).status_code == 503  # the rest is not warm yet
         wait_until(lambda: count_progress(address) > 0)
@@ -121,9 +120,9 @@ def test_a_port_in_use_is_told() -> None:
             text=True,
             timeout=60,
         )
-    assert outcome.returncode == 3  # as uvicorn says that it could not start
-    assert "address already in use" in outcome.stderr
-    assert "Traceback" not in outcome.stderr
+    assert outcome.returncode == 1
+    assert "Address already in use; --port names another port" in outcome.stderr
+    assert outcome.stderr.count("\n") == 1
 
 
 def test_the_image_checks_the_port_it_serves() -> None:
