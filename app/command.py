@@ -100,14 +100,14 @@ def compile_kernels(names: Sequence[str]) -> None:
     """
     from numba.core import event  # noqa: PLC0415
 
-    from app.calculations import STAGES  # noqa: PLC0415
     from app.evaluate import warm  # noqa: PLC0415
+    from app.models.kernels import KERNEL_GROUPS  # noqa: PLC0415
     from solvers.compiled import announcement  # noqa: PLC0415
     from solvers.kernel_cache import FOLDER  # noqa: PLC0415
 
     gc.enable()
     announcement.mute()
-    stages = {stage.name: stage for stage in STAGES}
+    stages = {stage.name: stage for stage in KERNEL_GROUPS}
     if unknown := set(names) - set(stages):
         sys.exit(f"tribodrive: there is no stage {', '.join(sorted(unknown))}; the stages are {', '.join(stages)}")
     if FOLDER is None:

@@ -3,19 +3,21 @@
 import json
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import asdict
 from hashlib import sha256
 from operator import attrgetter
 from typing import Any
 
 from app import figures
-from app.calculations import BY_PATH, Calculation, Stage
+from app.calculations import BY_PATH
 from app.errors import Fault, InvalidBody, Unprocessable, Unreadable, printable
 from app.examples import examples
 from app.figures.data import ThemeName
 from app.figures.declaration import Declaration
+from app.models.card import Calculation
+from app.models.kernels import KernelGroup
+from app.schema.answers import MODEL_VERSION, Assumption, Group, Response, assumption, notice_of, read
 from app.schema.fields import field_path
-from app.schema.model import MODEL_VERSION, Request, Response, Section, from_si, members
+from app.schema.model import Request, Section, members
 from app.schema.reading import validated
 from app.sources import SOURCES
 from solvers import notices
@@ -127,13 +129,13 @@ def figure_of(name: str, image_format: figures.Format, theme: ThemeName, path: s
     return draw_figure(BY_PATH[path], declaration, request, image_format, theme)
 
 
-def warm(stage: Stage) -> None:
-    """Compile the kernels of a stage in this process, or load them, by solving the examples of the stage."""
-    for name in stage.examples:
+def warm(group: KernelGroup) -> None:
+    """Compile the kernels of a group in this process, or load them, by solving the examples of the group."""
+    for name in group.examples:
         example = examples()[name]
         request = example.request
-        if stage.model:
-            request = request | {"model": request.get("model", {}) | dict(stage.model)}
+        if group.model:
+            request = request | {"model": request.get("model", {}) | dict(group.model)}
         answer_of(example.endpoint, BY_PATH[example.endpoint].request.model_validate(request))
 
 
@@ -169,7 +171,7 @@ def draw_figure(
 def evaluate(calculation: Calculation, request: Request) -> Response:
     """Solve a request and return the response.
 
-    Raises Unprocessable if the solver rejects the input, and a validation error if a result is not finite.
+    Raises Unprocessable if the solver rejects the input, and NotFinite if a result is not finite.
     """
     return response_to(calculation, request, solve(calculation, request))
 
@@ -182,8 +184,7 @@ def solve(calculation: Calculation, request: Request) -> Any:
     try:
         return calculation.solve(request.inputs())
     except InvalidInput as error:
-        path = field_path(request, error.field) if error.field else None
-        raise Unprocessable(error.code, error.message, path) from error
+        raise Unprocessable(error.code, error.message, field_path(request, error.field)) from error
     except NoSolution as failure:
         return failure
 
@@ -191,36 +192,43 @@ def solve(calculation: Calculation, request: Request) -> Any:
 def response_to(calculation: Calculation, request: Request, result: Any) -> Response:
     """Return the response for a solver's result, or for the exception NoSolution that the solver raised.
 
-    Raises a validation error if a number in the result is not finite.
+    Raises NotFinite if a number in the result is not finite.
     """
-    content: dict[str, Any]
+    residuals, status = None, "ok"
     if isinstance(result, NoSolution):
-        warning = {"rank": "invalid", "code": result.code, "message": result.message}
-        content = {"status": "no_solution", "warnings": [warning], "residuals": result.residuals}
-        result = None
+        warnings = [notice_of("invalid", result.code, result.message)]
+        residuals, status, result = result.residuals, "no_solution", None
     else:
         warnings = [
-            asdict(notice) | {"field": field_path(request, notice.field) if notice.field else None}
+            notice_of(notice.rank, notice.code, notice.message, field_path(request, notice.field))
             for notice in sorted(result.warnings, key=lambda notice: notices.RANKS.index(notice.rank))
         ]
-        content = from_si(calculation.response, result, request.detail)
-        content |= {"status": "ok_with_warnings" if warnings else "ok", "warnings": warnings}
+        status = "ok_with_warnings" if warnings else "ok"
         if getattr(result, "status", None) == "no_solution":
-            content |= {"status": "no_solution", "residuals": result.residuals}
-    of_model = (
-        {"field": path, "value": attrgetter(path)(request), "reason": reason}
-        for path, reason in request.assumed_by_the_model().items()
-    )
+            residuals, status = result.residuals, "no_solution"
     inputs = request.model_dump(exclude={"detail"})
-    content |= {
-        "assumptions": [*_assumptions(request, content.get("derived", {})), *of_model],
-        "model_version": MODEL_VERSION,
-        "sources": SOURCES,
-        "model": request.options(),
-        "inputs": inputs,
-        "case": case_of(calculation.path, inputs, SOURCES),
-    }
-    return calculation.response.model_validate(content).read_from(result)
+    response: Response = read(
+        calculation.response,
+        result,
+        request.detail,
+        status=status,
+        warnings=warnings,
+        **({} if residuals is None else {"residuals": residuals}),
+        assumptions=[],
+        model_version=MODEL_VERSION,
+        sources=SOURCES,
+        model=request.options(),
+        inputs=inputs,
+        case=case_of(calculation.path, inputs, SOURCES),
+    )
+    response.assumptions = [
+        *_assumptions(request, response.derived),
+        *(
+            assumption(path, attrgetter(path)(request), reason)
+            for path, reason in request.assumed_by_the_model().items()
+        ),
+    ]
+    return response.read_from(result)
 
 
 def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
@@ -233,9 +241,9 @@ def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
 
 
 def _assumptions(
-    section: Section, derived: dict[str, Any], prefix: str = "", unused: frozenset[str] = frozenset()
-) -> Iterator[dict[str, Any]]:
-    """Yield the field, the value and the reason of each default that is our own choice and affects the result.
+    section: Section, derived: Group | None, prefix: str = "", unused: frozenset[str] = frozenset()
+) -> Iterator[Assumption]:
+    """Yield each default that is our own choice and affects the result.
 
     `derived` holds the values that the calculation used, by the names of the fields. `prefix` is put before the names
     of the fields of `section`. `unused` holds the dotted names of fields without effect on the result.
@@ -247,11 +255,11 @@ def _assumptions(
             continue
         value = getattr(section, name)
         if isinstance(value, Section):
-            yield from _assumptions(value, derived.get(name, derived) or {}, f"{path}.", unused)
+            yield from _assumptions(value, getattr(derived, name, derived), f"{path}.", unused)
         elif isinstance(value, list) and member.group:
-            derived_items = derived.get(name) or [{}] * len(value)
-            for index, (item, own) in enumerate(zip(value, derived_items, strict=True)):
+            items = getattr(derived, name, None) or [None] * len(value)
+            for index, (item, own) in enumerate(zip(value, items, strict=True)):
                 yield from _assumptions(item, own, f"{path}.{index}.", unused)
         elif reason and (value is None or name not in section.model_fields_set):
-            used = derived.get(name, value)
-            yield {"field": path, "value": section.stands_for_null(name) if used is None else used, "reason": reason}
+            used = getattr(derived, name, value)
+            yield assumption(path, section.stands_for_null(name) if used is None else used, reason)

@@ -20,7 +20,7 @@ from app.errors import PROBLEMS
 from app.http import problems
 from app.http.middleware import Protection
 from app.http.routes import calculations, pages, rexs, service, studies, study_pages
-from app.schema.model import MODEL_VERSION
+from app.schema.answers import MODEL_VERSION
 from app.settings import MEBIBYTE, settings, unknown_variables
 from app.studies.admission import StudyAdmission
 from app.workers.pool import Pool

@@ -24,7 +24,7 @@ from app.command import serve
 from app.examples import Example, examples
 from app.http.routes.service import Health
 from app.main import create_app
-from app.schema.coupling import CouplingRequest
+from app.models.coupling.request import CouplingRequest
 from tests.support.server import memory_mb, workers
 
 PORT = 8765

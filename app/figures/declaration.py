@@ -7,7 +7,8 @@ from typing import Any, TypeVar
 
 from app.figures.data import Figure, NoFigure
 from app.figures.units import shown
-from app.schema.model import Request, Response
+from app.schema.answers import Response
+from app.schema.model import Request
 
 T = TypeVar("T")
 Build = Callable[..., Figure]

@@ -9,6 +9,7 @@ import re
 from dataclasses import dataclass
 from functools import cache
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 
 FIELDS = "fields"
 """Name of the chapter that contains the table of all fields."""
@@ -60,5 +61,10 @@ class Chapter:
 @cache
 def chapters() -> dict[str, Chapter]:
     """Return the chapters in reading order. The keys are the names of the chapters."""
-    folder = files("app.manual")
-    return {name: Chapter(name, folder.joinpath(f"{name}.md").read_text("utf-8")) for name in NAMES}
+    return {name: Chapter(name, file_of(name).read_text("utf-8")) for name in NAMES}
+
+
+def file_of(name: str) -> Traversable:
+    """Return the file of a chapter: that of a model in the folder of the model, any other one beside this module."""
+    own = files("app.models") / name.replace("-", "_") / "chapter.md"
+    return own if own.is_file() else files("app.manual") / f"{name}.md"

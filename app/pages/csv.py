@@ -12,8 +12,8 @@ from app.errors import Unprocessable
 from app.pages.cases import Case
 from app.pages.results import entries, flattened
 from app.pages.typed import text_of
+from app.schema.answers import Response
 from app.schema.fields import ITEM, Leaf, leaf_at, leaves
-from app.schema.model import Response
 from app.spreadsheet import csv_of
 from app.studies.fields import value_at
 

@@ -6,8 +6,9 @@ from itertools import chain
 from math import pi
 from typing import Any
 
-from app.calculations import BY_PATH, Calculation
+from app.calculations import BY_PATH, CARDS, Calculation
 from app.manual import chapters
+from app.models.card import Card
 from app.pages.form import title_of
 from app.pages.query import link, pairs_of
 from app.pages.study_kinds import study_page
@@ -15,10 +16,7 @@ from app.pages.study_links import studies_of
 from app.pages.templating import by_model, example_link, examples_of, model_of, page_path, rendered
 from app.schema.fields import leaf_at
 
-ANSWERS = {"drive-train": "face-load", "coupling": "tooth-loads", "pumping": "mach-map", "scuffing": "flank-load"}
-"""For each model, the name of the figure that the start page shows."""
 SCUFFING = "/v1/scuffing"
-SPECTRA = (SCUFFING, "/v1/drive-train")  # endpoints whose load-spectrum studies have links at the stages of a unit
 CASE_COLUMNS = ("load.pinion_torque_n_m", "load.pinion_speed_rpm", "temperatures.oil_c")
 
 
@@ -37,7 +35,7 @@ def _entry(calculations: list[Calculation]) -> dict[str, Any]:
     first = calculations[0]
     of_first = examples_of(first)
     example = next((example for example in of_first if example.title.endswith("?")), of_first[0])
-    figure = next(figure for figure in first.figures if figure.name == ANSWERS[model_of(first)])
+    figure = next(figure for figure in first.figures if figure.name == card_of(first).start_figure)
     image, pairs = f"{page_path(first)}/figures/{figure.name}.svg", pairs_of(example.request)
     return {
         "chapter": chapters()[model_of(first)],
@@ -56,6 +54,11 @@ def _entry(calculations: list[Calculation]) -> dict[str, Any]:
         ],
         "studies": [study for calculation in calculations for study in studies_of(calculation)[:1]],
     }
+
+
+def card_of(calculation: Calculation) -> Card:
+    """Return the card of the model to which a calculation belongs."""
+    return next(card for card in CARDS if calculation in card.endpoints)
 
 
 def unit_page(root: str, unit: dict[str, Any], name: str = "", sha256: str = "") -> str:
@@ -121,7 +124,7 @@ def _stage(stage: dict[str, Any], file: dict[str, str]) -> dict[str, Any]:
                     spectrum.address_of(BY_PATH[path], pairs_of(requests[path]), {"cases": lines}, file),
                 )
                 for path, lines in stage["spectra"].items()
-                if path in SPECTRA
+                if BY_PATH[path].words.scuffing
             ],
             "cases": cases,
         }

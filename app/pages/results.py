@@ -5,11 +5,13 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from typing import Any, NamedTuple
 
+from app.calculations import CALCULATIONS
 from app.figures.wording import DIFFERENCES, signed
+from app.models.card import Verdict, Words
 from app.pages.typesetting import shown, words
-from app.pages.verdicts import Verdict, verdicts
+from app.schema.answers import Response
 from app.schema.fields import ITEM, Branch, Leaf, headlines, leaf_at, tree
-from app.schema.model import Documented, Response
+from app.schema.model import Documented
 
 NOT_RESULTS = frozenset(
     {"status", "warnings", "residuals", "assumptions", "model_version", "sources", "model", "derived", "inputs", "case"}
@@ -96,7 +98,7 @@ def groups(response: Documented, before: Documented | None = None) -> dict[str, 
 
     `before` is the answer of the variant. If `before` is given, each row also has the value of the variant.
     """
-    old, remarks = values_by_path(before), response.remarks() if isinstance(response, Response) else {}
+    old, remarks = values_by_path(before), words_of(response).remarks(response)
     tables: dict[str, list[Row]] = {}
     for group, leaf, path, value in entries(response):
         if ITEM in leaf.path and leaf.detail != "summary":  # a long list, which a figure shows
@@ -212,7 +214,7 @@ def cards(response: Documented, inputs: dict[str, Any], before: Documented | Non
     warning makes the answer doubtful, the level `good` is lowered to `near`.
     """
     values, old = values_by_path(response), values_by_path(before)
-    judged = verdicts(response) if isinstance(response, Response) else {}
+    judged = verdicts(response)
     doubtful = any(warning.rank != "note" for warning in response.warnings)
     rows = []
     for _, alike in groupby(headlines(type(response)), key=lambda leaf: leaf.view.headline):
@@ -225,6 +227,21 @@ def cards(response: Documented, inputs: dict[str, Any], before: Documented | Non
         row = replace(row, items=_with_band(row.items, leaf, values), before=_with_band(row.before, leaf, old))
         rows.append(replace(row, unit="" if value is None else row.unit, level=level, remark=verdict))
     return rows
+
+
+def verdicts(response: Documented) -> dict[str, Verdict]:
+    """Return the verdicts that need more than a single limit. The keys are the paths of the headline numbers."""
+    return {} if response.status == "no_solution" else words_of(response).verdicts(response)
+
+
+def conclusion(response: Documented) -> str:
+    """Return the conclusion of an answer in words; empty if this kind of calculation has no conclusion."""
+    return "" if response.status == "no_solution" else words_of(response).conclusion(response)
+
+
+def words_of(response: Documented) -> Words:
+    """Return what the model's card says of answers of this kind; empty for the answers of other endpoints."""
+    return next((each.words for each in CALCULATIONS if each.response is type(response)), Words())
 
 
 def _with_band(items: tuple[str, ...], leaf: Leaf, values: dict[str, Any]) -> tuple[str, ...]:

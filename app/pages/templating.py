@@ -15,7 +15,7 @@ from app.pages.charts import in_columns
 from app.pages.form import anchor, link_to, title_of
 from app.pages.query import link, pairs_of
 from app.pages.typesetting import cited, shown, symbol, typeset, words
-from app.schema.model import MODEL_VERSION
+from app.schema.answers import MODEL_VERSION
 
 ASSETS = {file.name: file.read_bytes() for file in files("app.pages").joinpath("static").iterdir()}
 """The contents of the files to which pages refer. The keys are the names of the files."""

@@ -15,13 +15,12 @@ from app.pages.charts import figure_of, figures_of, linked, values_of
 from app.pages.form import State, form
 from app.pages.manual import chapter_of
 from app.pages.query import Pairs, excluded, link
-from app.pages.results import assumptions, cards, differences, groups, resolved
+from app.pages.results import assumptions, cards, conclusion, differences, groups, resolved
 from app.pages.study_links import studies_of_case, study_links
 from app.pages.templating import example_link, examples_of, page_path, rendered
 from app.pages.typed import as_typed, question
 from app.pages.typesetting import NO_VALUE
 from app.pages.variants import variants_of, with_this
-from app.pages.verdicts import conclusion
 from app.schema.fields import headlines, leaf_at
 
 

@@ -131,7 +131,7 @@ def with_answer(document: Document, stage: int, endpoint: str, answer: dict[str,
     have names that begin with `custom_tribodrive_`.
     """
     major, written = int(document.model.version.split(".")[0]), []
-    for path, name, unit in table.RESULTS[endpoint]:
+    for path, name, unit in BY_PATH[endpoint].words.to_file:
         value: Any = answer
         for part in path.split("."):
             value = value.get(part) if isinstance(value, dict) else None

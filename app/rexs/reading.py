@@ -14,7 +14,7 @@ from typing import Annotated, Any, NamedTuple
 
 from pydantic import BaseModel
 
-from app.calculations import BY_PATH
+from app.calculations import BY_PATH, CALCULATIONS
 from app.errors import InvalidBody
 from app.rexs.model import Attribute, Component, LoadCase, Model
 from app.rexs.table import APPLICATION_FACTOR, EXTERNAL, IGNORED, SCUFFING_FACTOR, Row, convert
@@ -24,14 +24,15 @@ from app.schema.reading import validated
 LARGEST = 1e30  # largest absolute value of an accepted number; sums and products of such numbers stay finite
 DIGITS = 7
 PARALLEL = 0.9  # axes of shafts with a larger cosine between them count as parallel; chosen
-SCUFFING = "/v1/scuffing"
-MESH = {"gears", "load", "materials", "modifications", "friction_coefficient"}
-SECTIONS = {
-    "/v1/scuffing/load-distribution": MESH,
-    SCUFFING: MESH | {"temperatures", "lubricant"},
-    "/v1/pumping": {"gears"},
+SCUFFING, TRAIN = "/v1/scuffing", "/v1/drive-train"
+READABLE = {
+    calculation.path: calculation.words.from_file
+    for calculation in sorted(
+        CALCULATIONS, key=lambda each: each.words.from_file is None or not each.words.from_file.loaded
+    )
+    if calculation.words.from_file
 }
-"""Endpoints that calculate a single mesh, with the sections of a draft that a request to the endpoint contains."""
+"""What the endpoints take of a draft whose requests are made from files; those that take the load come first."""
 Vector = tuple[float, float, float]
 
 
@@ -340,11 +341,11 @@ class Draft:
         Fields that the endpoint does not have are left out. Fields whose values the endpoint rejects are also left out;
         a finding gives the reason. Rejected fields and required fields without a value are recorded as missing.
         """
-        replaced = endpoint == SCUFFING and SCUFFING_FACTOR in self.fields
+        replaced = READABLE[endpoint].path(SCUFFING_FACTOR) is not None and SCUFFING_FACTOR in self.fields
         places = {
             ours: theirs
             for ours in paths
-            if (theirs := path_in(endpoint, ours)) is not None and not (replaced and ours == APPLICATION_FACTOR)
+            if (theirs := READABLE[endpoint].path(ours)) is not None and not (replaced and ours == APPLICATION_FACTOR)
         }
         own = {ours: theirs for ours, theirs in places.items() if ours in self.fields}
         model = BY_PATH[endpoint].request
@@ -374,19 +375,6 @@ class Draft:
                 del own[ours]
             if len(own) == accepted:
                 return request
-
-
-def path_in(endpoint: str, path: str) -> str | None:
-    """Convert the path of a field in the draft into the path of this field in the request of an endpoint.
-
-    Return None if the request has no such field.
-    """
-    if path == SCUFFING_FACTOR:
-        return APPLICATION_FACTOR if endpoint == SCUFFING else None
-    if endpoint == "/v1/drive-train" or (endpoint, path) == ("/v1/pumping", "load.pinion_speed_rpm"):
-        return path.replace("load.", "operation.", 1)
-    unknown = {"gears.hand"} if endpoint == "/v1/pumping" else {"gears.hand", "gears.normal_backlash_mm"}
-    return path if path.partition(".")[0] in SECTIONS[endpoint] and path not in unknown else None
 
 
 def rounded(value: Any) -> Any:

@@ -15,7 +15,7 @@ from app.rexs.lubrication import Lubrication
 from app.rexs.model import Component, Model
 from app.rexs.modifications import Modifications, modifications_of
 from app.rexs.power import Flow, Pair, Train
-from app.rexs.reading import MESH, SCUFFING, SECTIONS, Reading, path_in, rounded
+from app.rexs.reading import READABLE, SCUFFING, TRAIN, Reading, rounded
 from app.rexs.stages import SPEED, TORQUE, StageDraft, pairs
 
 MOST_FINDINGS = 1000  # largest number of findings in an answer; more would not help the author of the file
@@ -104,12 +104,14 @@ def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], S
                     stage.fields[path],
                     f"the value is taken from the load case {case.name}, because the model states no value",
                 )
-    # The fields of the sections in `MESH` come first, then the fields of oil and temperatures.
-    paths = sorted({**stage.fields, **stage.missing}, key=lambda path: path.partition(".")[0] not in MESH)
-    requests = {endpoint: stage.request(endpoint, paths) for endpoint in SECTIONS}
+    # The fields of oil and temperatures come last.
+    paths = sorted(
+        {**stage.fields, **stage.missing}, key=lambda path: path.partition(".")[0] in {"lubricant", "temperatures"}
+    )
+    requests = {endpoint: stage.request(endpoint, paths) for endpoint in READABLE if endpoint != TRAIN}
     is_train = add_drive_train(stage)
     if is_train:
-        requests["/v1/drive-train"] = stage.request("/v1/drive-train", {**stage.fields, **stage.missing})
+        requests[TRAIN] = stage.request(TRAIN, {**stage.fields, **stage.missing})
     cases = _cases(stage, pair, flows, is_train=is_train)
     askable = 0 < len(cases) <= MOST_SPECTRUM_CASES
     row = {
@@ -180,7 +182,7 @@ class _Case(NamedTuple):
 
     def _in(self, endpoint: str) -> dict[str, Any]:
         general_last = sorted(self.changes, key=lambda path: path != table.SCUFFING_FACTOR, reverse=True)
-        places = {path: path_in(endpoint, path) for path in general_last}
+        places = {path: READABLE[endpoint].path(path) for path in general_last}
         return {place: rounded(self.changes[path]) for path, place in places.items() if place is not None}
 
 

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import Enum
 from functools import cache
+from itertools import product
 from types import NoneType
 from typing import Any, Literal, get_args, get_origin
 
@@ -271,51 +272,39 @@ def _options(allowed: tuple[Any, ...]) -> tuple[Any, ...]:
     return ()
 
 
-def field_path(request: Documented, name: str) -> str | None:
+def field_path(request: Documented, name: str | None) -> str | None:
     """Return the dotted path of the request field that a solver calls `name`, or None if no field matches.
 
     `name` is a dotted name of the solver, in which outer sections may be missing. If several fields match, return the
     path of the outermost field. If the request gives an alternative instead of the field, return the path of the
     alternative. If the items of a list have no such field, return the path of the list item.
     """
-    indices = [part for part in name.split(".") if part.isdecimal()]
-    wanted = tuple(ITEM if part.isdecimal() else part for part in name.split("."))
+    parts = name.split(".") if name else []
+    indices = [part for part in parts if part.isdecimal()]
+    wanted = tuple(ITEM if part.isdecimal() else part for part in parts)
+    own, brief = _by_solvers_names(type(request))
     while wanted:
-        names = _meant(type(request), wanted)
-        if names and (path := _sent(request, names, iter(indices))):
+        # The first names may be those of solver inputs that contain all inputs of the request.
+        found = brief.get(wanted) or next((own[wanted[at:]] for at in range(len(wanted)) if wanted[at:] in own), None)
+        if found and (path := _sent(request, found, iter(indices))):
             return path
         wanted = wanted[:-1] if ITEM in wanted[:-1] else ()
     return None
 
 
 @cache
-def _meant(model: type[Documented], wanted: _Names) -> _Names | None:
-    """Return the interface names of the field or list item that a solver calls `wanted`; None if nothing matches.
-
-    `wanted` may leave out sections. The solver's names of a field are compared with `wanted`. A field matches if three
-    conditions are met: its last name is the last name in `wanted`; its names contain all names in `wanted`, in the same
-    order; and its names contain as many list indices as `wanted`. If several fields match, the field with the fewest
-    names is taken.
-
-    The first names in `wanted` may be those of solver inputs that contain all inputs of the request. If nothing
-    matches, the first names in `wanted` are therefore dropped, one after another. A field then matches only if its
-    first name is the first remaining name.
-    """
-    request_names: dict[_Names, _Names] = {}
+def _by_solvers_names(model: type[Documented]) -> tuple[dict[_Names, _Names], dict[_Names, _Names]]:
+    """Return the names of fields and list items in the interface, by the solver's names: all, and without sections."""
+    own: dict[_Names, _Names] = {}
     for way in _ways(model):
         theirs, ours = _names(way, solvers=True), _names(way)
-        request_names |= {theirs: ours} | ({theirs[:-1]: ours[:-1]} if way[-1].dimensions else {})
-    for start in range(len(wanted)):
-        for theirs in sorted(request_names, key=len):
-            rest = iter(theirs)
-            if (
-                theirs[-1] == wanted[-1]
-                and theirs.count(ITEM) == wanted.count(ITEM)
-                and all(name in rest for name in wanted[start:])  # these names occur in `theirs` in the same order
-                and (start == 0 or theirs[0] == wanted[start])
-            ):
-                return request_names[theirs]
-    return None
+        own |= {theirs: ours} | ({theirs[:-1]: ours[:-1]} if way[-1].dimensions else {})
+    brief: dict[_Names, _Names] = {}
+    for *around, last in sorted(own, key=len):
+        for kept in product((True, False), repeat=len(around)):
+            names = (name for name, keep in zip(around, kept, strict=True) if keep or name == ITEM)
+            brief.setdefault((*names, last), own[(*around, last)])
+    return own, brief
 
 
 def _sent(request: Documented, path: _Names, indices: Iterator[str]) -> str | None:

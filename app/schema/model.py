@@ -12,23 +12,21 @@ class body replaces the type of the filled field. A default in the class body re
 If the type in the class body is annotated with an `Input` or `Output`, this annotation replaces the declaration of the
 solver. `Input.of(Record, "field", text=...)` copies the declaration of the solver and replaces only its text.
 
-`Section.si` converts a request into the solver's dataclasses in SI. `from_si` reads a response from the solver's
-result. Both functions take names and units from `members`, which collects them once per model.
+`Section.si` converts a request into the solver's dataclasses in SI, `app.schema.answers.read` a result into an answer.
+Both take names and units from `members`, which collects them once per model.
 """
 
 from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import MISSING, dataclass, fields, is_dataclass
 from functools import cache, partial
-from importlib.metadata import version
 from inspect import get_annotations
-from types import GenericAlias, NoneType, UnionType
+from types import GenericAlias, NoneType, UnionType, new_class
 from typing import (
     TYPE_CHECKING,
     Annotated,
     Any,
     ClassVar,
-    Literal,
     LiteralString,
     Self,
     TypeVar,
@@ -39,17 +37,14 @@ from typing import (
 )
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, PrivateAttr, model_validator
+from pydantic import BaseModel, ConfigDict, Field, model_validator
 from pydantic.fields import FieldInfo
 from pydantic_core import PydanticCustomError
 
-from app.schema.quantities import Input, Output, View, meaning_of
-from solvers.notices import Rank
-from solvers.quantity import UNITS, Detail, Quantity, Unit, as_json, converted, quantities, type_of
+from app.schema.quantities import Input, Output, meaning_of
+from solvers.quantity import UNITS, Detail, Quantity, Unit, converted, quantities, type_of
 
 T = TypeVar("T")
-LEVELS: tuple[Detail, ...] = ("summary", "curves", "fields")
-MODEL_VERSION = version("tribodrive")
 
 
 class Documented(BaseModel):
@@ -63,8 +58,8 @@ class Documented(BaseModel):
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
     member_unit: ClassVar[str | None] = None
-    views: ClassVar[dict[str, View]] = {}
-    _declares: ClassVar[type[Input] | type[Output]] = Input
+    views: ClassVar[dict[str, Any]] = {}
+    declares: ClassVar[type[Input] | type[Output]] = Input
     _stands: ClassVar[bool] = True  # whether the model may represent its dataclass in other models
     _optional: ClassVar[bool] = False  # whether filled fields may be missing, because there may be no solution
 
@@ -113,7 +108,7 @@ class Documented(BaseModel):
             (record, quantity), field = declared[name], names[name]
             if name in without or (field in inherited and field not in own):
                 continue
-            kind = own.get(field) or _published(type_of(record, name), quantity, cls._declares)
+            kind = own.get(field) or _published(type_of(record, name), quantity, cls)
             if meaning_of(getattr(kind, "__metadata__", ())):  # the class body gives its own declaration
                 filled[field] = kind
                 continue
@@ -122,12 +117,17 @@ class Documented(BaseModel):
                 setattr(cls, field, default)
         cls.__annotations__ = filled | {name: kind for name, kind in own.items() if name not in filled}
         if stands and cls._stands and records and not only and not without:
-            if (other := _MODELS.get((cls._declares, records[0]), cls)) is not cls:
+            if (other := _MODELS.get((cls.declares, records[0]), cls)) is not cls:
                 raise TypeError(
                     f"{other.__name__} and {cls.__name__} both describe {records[0].__name__}; declare one of them "
                     "with stands=False, so that the other is the standard model"
                 )
-            _MODELS[cls._declares, records[0]] = cls
+            _MODELS[cls.declares, records[0]] = cls
+
+    @classmethod
+    @abstractmethod
+    def standing_for(cls, record: Any) -> "type[Documented]":
+        """Return a generated model for a dataclass for which no model was declared."""
 
     @classmethod
     @abstractmethod
@@ -142,8 +142,8 @@ _MODELS: dict[tuple[type, type], type[Documented]] = {}
 """The models that represent dataclasses. A key is a pair: `Input` or `Output`, and the dataclass."""
 
 
-def _published(hint: Any, declared: Quantity, declares: type) -> Any:
-    """Return the type that a field has in the interface.
+def _published(hint: Any, declared: Quantity, holder: type[Documented]) -> Any:
+    """Return the type that a field of the model `holder` has in the interface.
 
     Dataclasses become models, and tuples and arrays become lists.
     """
@@ -151,19 +151,32 @@ def _published(hint: Any, declared: Quantity, declares: type) -> Any:
     hint = hint if alias is None else alias[get_args(hint)]
     origin, arguments = get_origin(hint), get_args(hint)
     if isinstance(hint, type) and is_dataclass(hint):
-        return _MODELS[declares, hint]
+        return _MODELS.get((holder.declares, hint)) or holder.standing_for(hint)
     if origin in {Union, UnionType}:
-        return Union[tuple(_published(argument, declared, declares) for argument in arguments)]  # noqa: UP007
+        return Union[tuple(_published(argument, declared, holder) for argument in arguments)]  # noqa: UP007
     if origin is np.ndarray:
         number: Any = bool if "bool" in str(arguments[1]) else float
         row = GenericAlias(list, number | None if declared.gaps else number)
         return GenericAlias(list, row) if isinstance(declared.axis, tuple) else row
     if origin is tuple:
-        listed = GenericAlias(list, _published(arguments[0], declared, declares))
-        if declares is Input and arguments[-1] is not Ellipsis:
+        listed = GenericAlias(list, _published(arguments[0], declared, holder))
+        if holder.declares is Input and arguments[-1] is not Ellipsis:
             return Annotated[listed, Field(min_length=len(arguments), max_length=len(arguments))]
         return listed
     return hint
+
+
+def generated(base: type[Documented], name: str, own: dict[str, Any], **keywords: Any) -> type[Any]:
+    """Return a model without code of its own, with the docstring of the first dataclass that it describes.
+
+    `own` holds class attributes, and `keywords` are those of `Documented`.
+    """
+    record: Any = keywords["of"][0] if isinstance(keywords["of"], tuple) else keywords["of"]
+    text = {
+        "__doc__": record.__doc__.partition("\n\nParameters\n---")[0].partition("\n\nAttributes\n---")[0],
+        "__module__": __name__,
+    }
+    return new_class(name, (base,), keywords, lambda namespace: namespace.update(text | own))
 
 
 def kinds(annotation: Any, lists: int = 0) -> Iterator[tuple[Any, int]]:
@@ -233,13 +246,13 @@ def _fillings(model: type[Documented], record: Any) -> tuple[tuple[str, Member, 
     }
     hints = get_type_hints(record)
     return tuple(
-        (field.name, by_solver_name[field.name], _record_in(hints[field.name]))
+        (field.name, by_solver_name[field.name], record_in(hints[field.name]))
         for field in fields(record)
         if field.init and field.name in by_solver_name
     )
 
 
-def _record_in(hint: Any) -> Any:
+def record_in(hint: Any) -> Any:
     """Return the dataclass that a type contains, or None if the type contains no dataclass.
 
     Examples of types that contain the dataclass `Record` are `Record`, `Record | None` and `tuple[Record, ...]`.
@@ -255,48 +268,6 @@ def _in_si(value: Any, unit: Unit | None, record: Any) -> Any:
 
 def _unchanged(value: Any) -> Any:
     return value
-
-
-def from_si(group: type[Documented], result: Any, detail: Detail) -> dict[str, Any]:
-    """Return the values of a response group, read from a solver's result.
-
-    The keys are the names of the response fields.
-
-    Each value is converted into the unit in the name of its field. Fields above the level of detail are left out.
-    """
-    content: dict[str, Any] = {}
-    kind: Any = type(result)
-    for member, holder in _sources(group, kind, detail):
-        part = getattr(result, holder) if holder else result
-        value = None if part is None else getattr(part, member.solver_name)
-        content[member.name] = _displayed(value, member, detail)
-    return content
-
-
-@cache
-def _sources(group: type[Documented], record: Any, detail: Detail) -> tuple[tuple[Member, str | None], ...]:
-    """Return the fields of a response group, and where a solver's result of the type `record` holds their values.
-
-    Each field comes with the name of the member of the result that holds the value. This name is None if the result
-    itself holds the value. Fields that no dataclass declares, and fields above the level of detail, are left out.
-    """
-    held = {name: inner for name, hint in get_type_hints(record).items() if (inner := _record_in(hint))}
-    sources = []
-    for member in members(group):
-        if member.record and LEVELS.index(member.meaning.detail) <= LEVELS.index(detail):
-            holders = (name for name, inner in held.items() if issubclass(inner, member.record))
-            sources.append((member, None if issubclass(record, member.record) else next(holders, None)))
-    return tuple(sources)
-
-
-def _displayed(value: Any, member: Member, detail: Detail) -> Any:
-    """Return a value in the unit of its field.
-
-    NaN in an array marks a point without a value and becomes None.
-    """
-    group, unit = member.group, member.unit
-    inside = None if group is None else lambda part: from_si(group, part, detail)
-    return converted(value, lambda number: as_json(unit.from_si(number) if unit else number), inside, list)
 
 
 def _with_choices(document: dict[str, Any], section: type[Any]) -> None:
@@ -317,6 +288,10 @@ class Section(Documented):
     model_config = ConfigDict(extra="forbid", frozen=True, json_schema_extra=_with_choices)
     choice_code: ClassVar[LiteralString] = "exclusive"
     choice_missing: ClassVar[LiteralString | None] = None
+
+    @classmethod
+    def standing_for(cls, record: Any) -> type[Documented]:
+        return generated(Section, record.__name__, {}, of=record)
 
     @classmethod
     def _filled(cls, kind: Any, record: Any, name: str, names: dict[str, str], *, nullable: bool) -> tuple[Any, Any]:  # noqa: ARG003
@@ -411,108 +386,3 @@ class Request(Section):
         The keys are dotted names of request fields. The values are the reasons for the assumptions.
         """
         return {}
-
-
-class Group(Documented):
-    """A part of a response; none of its numbers is NaN or infinite."""
-
-    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
-    _declares: ClassVar = Output
-
-    @classmethod
-    def _filled(cls, kind: Any, record: Any, name: str, names: dict[Any, Any], *, nullable: bool) -> tuple[Any, Any]:
-        declared = quantities(record)[name]
-        unit, axis = declared.unit or getattr(kind, "member_unit", None), declared.axis
-        axis = tuple(names.get(item, item) for item in axis) if isinstance(axis, tuple) else names.get(axis, axis)
-        meaning = Output.of(record, name, unit=unit, axis=axis, **vars(cls.views.get(name, View())))
-        optional = cls._optional or declared.detail != "summary"
-        return Annotated[kind | None if optional or nullable else kind, meaning], None if optional else ...
-
-
-class Notice(Group):
-    """A warning about a value that is outside its range of validity or has no meaning."""
-
-    rank: Annotated[
-        Rank,
-        Output(
-            "rank of the warning",
-            text="invalid: a result is missing or the theory does not hold; doubtful: a limit is left; note: left out, "
-            "assumed or without meaning; the gravest first",
-        ),
-    ]
-    code: Annotated[str, Output("code of the warning", text="stable name, meant for programs")]
-    message: Annotated[str, Output("message of the warning", text="what is out of which range, and what follows")]
-    field: Annotated[
-        str | None, Output("field of the warning", text="dotted name of the request field it is about")
-    ] = None
-
-
-class Assumption(Group):
-    """A default that affects the results of the answer. This project chose the default; the paper does not state it."""
-
-    field: Annotated[str, Output("assumed field", text="dotted name of the request field")]
-    value: Annotated[Any, Output("assumed value", text="the value used")]
-    reason: Annotated[str, Output("reason of the assumption", text="why this value")]
-
-
-class Derived(Group):
-    """Values that follow from the request before any physics is computed."""
-
-
-GROUNDS = frozenset({"assumptions", "model_version", "sources", "model", "derived", "inputs", "case"})
-"""The names of the fields that stand last in every answer. These fields state the basis of the results."""
-
-
-class Response(Group):
-    """An answer: status, warnings and the basis of the results. Subclasses add the results."""
-
-    _optional: ClassVar = True
-    _stands: ClassVar = False
-
-    status: Annotated[
-        Literal["ok", "ok_with_warnings", "no_solution"],
-        Output("status", text="whether the calculation succeeded; with no_solution, `residuals` says how far it came"),
-    ]
-    warnings: Annotated[list[Notice], Output("warnings", text="limits of validity that this result touches")]
-    residuals: Annotated[
-        dict[str, float] | None, Output("residuals", text="how far an iteration without a solution came")
-    ] = None
-    assumptions: Annotated[
-        list[Assumption], Output("assumptions", text="defaults used that are ours and not the paper's")
-    ]
-    model_version: Annotated[str, Output("model version", text="version of the model that computed this result")]
-    sources: Annotated[
-        str, Output("sources of the solvers", text="SHA-256 of the solvers' syntax trees; equal for equal calculations")
-    ]
-    model: Annotated[dict[str, Any], Output("options in force")]
-    derived: Annotated[Derived | None, Output("derived", text="what follows from the request before any physics")] = (
-        None
-    )
-    inputs: Annotated[dict[str, Any], Output("inputs", text="the request with its defaults, to be posted")]
-    case: Annotated[str, Output("case", text="SHA-256 of endpoint, inputs and sources; equal cases have equal results")]
-
-    _result: Any = PrivateAttr(default=None)
-
-    @property
-    def result(self) -> Any:
-        """The solver's result in SI from which the response was read; None if the solver raised NoSolution."""
-        return self._result
-
-    def remarks(self) -> dict[str, str]:
-        """Return remarks on the accuracy of results.
-
-        Pages show each remark beside the result. The keys are the dotted paths of the results.
-        """
-        return {}
-
-    def read_from(self, result: Any) -> Self:
-        """Store the solver's result, which the figures need, and return this response."""
-        self._result = result
-        return self
-
-    @classmethod
-    def __pydantic_init_subclass__(cls, **_: Any) -> None:
-        """Move the fields in `GROUNDS` behind the fields with results."""
-        by_name = cls.__pydantic_fields__
-        cls.__pydantic_fields__ = {name: by_name[name] for name in sorted(by_name, key=lambda name: name in GROUNDS)}
-        cls.model_rebuild(force=True)

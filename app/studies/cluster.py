@@ -11,9 +11,9 @@ from typing import Any
 
 from distributed import Client, KilledWorker
 
-from app.calculations import STAGES
 from app.errors import SchedulerUnavailable, WorkerLost
 from app.evaluate import warm
+from app.models.kernels import KERNEL_GROUPS
 from app.sources import SOURCES
 from app.studies.runner import OtherSources, PoolLost
 
@@ -127,8 +127,8 @@ class DaskCluster:
 
 def prepare() -> None:
     """Load all kernels into the worker that runs this function."""
-    for stage in STAGES:
-        warm(stage)
+    for group in KERNEL_GROUPS:
+        warm(group)
 
 
 def solved_with(sources: str, function: Callable[..., Any], *arguments: Any) -> Any:

@@ -17,7 +17,7 @@ from app.schema.fields import Leaf, headlines
 from app.schema.model import Request
 from app.schema.reading import validated
 from app.studies.fields import clear_excluded, scalar_at, set_value, value_at
-from app.studies.requests import DRIVE_TRAIN, Overrides
+from app.studies.requests import Overrides
 from solvers.errors import InvalidInput, NoSolution
 from solvers.heat_balance import Cooling
 from solvers.notices import Rank
@@ -27,14 +27,6 @@ Status = Literal["ok", "ok_with_warnings", "no_solution", "refused", "failed"]
 SOLVED = ("ok", "ok_with_warnings")  # statuses of points that have an answer
 CHUNK_SECONDS = 0.25  # computing time of a chunk; after a chunk, the worker can do the work of another client
 COLD = "states.cold."
-BY_FILM = {
-    DRIVE_TRAIN: {"safety.minimum"},
-    "/v1/scuffing": {"film.min_at_psi", "film.thickness_ratio", "unsolved_points"},
-}
-"""The outputs of each endpoint that need the thermal film.
-
-Outputs with `thermal_ehl` in the path also need the thermal film. These outputs are not listed here.
-"""
 
 GEAR_FLOW = "cooling.gear_flow_l_per_min"
 FLOW_FIELDS = {GEAR_FLOW, "cooling.flow_rise_k"}
@@ -147,7 +139,7 @@ def check_distinct(paths: Sequence[str], place: str, *, numbered: bool = False) 
 
 def needs_film(endpoint: str, output: str) -> bool:
     """Return True if an output needs the thermal film. The film takes more time than all other parts of the answer."""
-    return "thermal_ehl" in output or output.removeprefix(COLD) in BY_FILM[endpoint]
+    return "thermal_ehl" in output or output.removeprefix(COLD) in (BY_PATH[endpoint].words.of_the_film or ())
 
 
 def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[str]) -> dict[str, Any]:
@@ -155,7 +147,7 @@ def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[st
 
     These calculations are the thermal film and the gear unit in the cold state.
     """
-    if endpoint not in BY_FILM:
+    if BY_PATH[endpoint].words.of_the_film is None:
         return request
     reduced = copy.deepcopy(request)
     if not any(needs_film(endpoint, path) for path in outputs):

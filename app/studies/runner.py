@@ -22,8 +22,8 @@ import numpy as np
 from app.errors import DeadlineExceeded, Unprocessable, WorkerLost
 from app.evaluate import calculation_at, case_of
 from app.log import STUDIES_UNFINISHED
+from app.schema.answers import MODEL_VERSION
 from app.schema.fields import Leaf
-from app.schema.model import MODEL_VERSION
 from app.schema.reading import validated
 from app.sources import SOURCES
 from app.studies.fields import is_number

@@ -5,8 +5,8 @@ from pathlib import Path
 
 from numba.core import event
 
-from app.calculations import STAGES
 from app.evaluate import warm
+from app.models.kernels import KERNEL_GROUPS
 from solvers.compiled import announcement
 from solvers.kernel_cache import FOLDER
 
@@ -40,5 +40,5 @@ announcement.mute()
 def prepare_kernels() -> None:
     """Compile all kernels now if they cannot be kept on disk; otherwise they are loaded as they are needed."""
     if FOLDER is None:
-        for stage in STAGES:
-            warm(stage)
+        for group in KERNEL_GROUPS:
+            warm(group)

@@ -1,4 +1,4 @@
-"""Start-up of the service: `tribodrive compile` runs beside the workers. Requests wait until their stages are ready."""
+"""Start-up of the service: `tribodrive compile` runs beside the workers. Requests wait until their groups are ready."""
 
 import asyncio
 import logging
@@ -14,12 +14,12 @@ from shutil import rmtree
 
 from fastapi import Request
 
-from app.calculations import LINE_CONTACT, STAGES, Stage
 from app.errors import WarmingUp
+from app.models.kernels import KERNEL_GROUPS, LINE_CONTACT, KernelGroup
 from app.workers.pool import Pool, unless_gone
 from solvers.kernel_cache import FOLDER
 
-BESIDE = LINE_CONTACT  # compiled beside the other stages, because it takes as long as all of them together
+BESIDE = LINE_CONTACT  # compiled beside the other groups, because it takes as long as all of them together
 WAIT_S = 90.0  # longest time that a request waits for its kernels; the client itself waits for 120 s
 STOPPED = {-signal.SIGTERM, -signal.SIGINT}  # exit codes of a compilation that was ended with the service
 STOP_S = 5.0  # a signal to the group reaches the service within this time
@@ -29,36 +29,36 @@ logger = logging.getLogger("tribodrive")
 
 
 class StartUp:
-    """The compilation of all stages, and the progress of the stages."""
+    """The compilation of all groups, and the progress of the groups."""
 
     def __init__(self) -> None:
-        self._percent = dict.fromkeys((stage.name for stage in STAGES), 0)
-        self._ready = {stage.name: asyncio.Event() for stage in STAGES}
+        self._percent = dict.fromkeys((group.name for group in KERNEL_GROUPS), 0)
+        self._ready = {group.name: asyncio.Event() for group in KERNEL_GROUPS}
 
     @property
     def warm(self) -> list[str]:
-        """Names of the stages that are ready."""
+        """Names of the groups that are ready."""
         return [name for name, percent in self._percent.items() if percent == 100]
 
-    def require(self, stages: Collection[Stage] | None = None) -> None:
-        """Raise WarmingUp if one of the stages is not ready; None: any stage."""
-        if not {stage.name for stage in (STAGES if stages is None else stages)} <= {*self.warm}:
+    def require(self, groups: Collection[KernelGroup] | None = None) -> None:
+        """Raise WarmingUp if one of the groups is not ready; None: any group."""
+        if not {group.name for group in (KERNEL_GROUPS if groups is None else groups)} <= {*self.warm}:
             report = ", ".join(f"{name} {percent} %" for name, percent in self._percent.items())
             raise WarmingUp(f"The solvers are being compiled, which happens once after installation: {report}")
 
-    async def wait(self, http: Request, stages: Collection[Stage]) -> None:
-        """Wait until the stages of a request are ready. Raises WarmingUp after `WAIT_S`, ClientGone if nobody waits."""
-        names = {stage.name for stage in stages} - {*self.warm}
+    async def wait(self, http: Request, groups: Collection[KernelGroup]) -> None:
+        """Wait until the groups of a request are ready. Raises WarmingUp after `WAIT_S`, ClientGone if nobody waits."""
+        names = {group.name for group in groups} - {*self.warm}
         if names:
             waiting = [self._ready[name] for name in names & self._ready.keys()]
             with suppress(TimeoutError):
                 await unless_gone(http, asyncio.ensure_future(_all_set(waiting)), lambda: WAIT_S)
-            self.require(stages)
+            self.require(groups)
 
     async def run(self, pool: Pool | None = None) -> None:
-        """Compile all stages. If a process fails, compile once more in an empty folder.
+        """Compile all groups. If a process fails, compile once more in an empty folder.
 
-        If compiled kernels cannot be kept, the workers of `pool` compile them, so that the stages wait for a worker.
+        If compiled kernels cannot be kept, the workers of `pool` compile them, so that the groups wait for a worker.
         """
         began = time.monotonic()
         if FOLDER is None:
@@ -67,24 +67,24 @@ class StartUp:
             )
             while pool is not None and pool.alive <= 0:  # noqa: ASYNC110  the pool counts its workers; nothing else waits for them
                 await asyncio.sleep(1.0)
-        elif not await self._compile(STAGES):
+        elif not await self._compile(KERNEL_GROUPS):
             logger.warning("a process that compiled kernels died: all are compiled anew")
             await asyncio.to_thread(rmtree, FOLDER, ignore_errors=True)
-            if not await self._compile(STAGES):
+            if not await self._compile(KERNEL_GROUPS):
                 logger.warning("it died again: kernels that are not on disk are compiled when they are needed")
-        for stage in STAGES:
-            self._advance(stage.name, 100)
+        for group in KERNEL_GROUPS:
+            self._advance(group.name, 100)
         logger.info("tribodrive: everything is warm after %.1f s", time.monotonic() - began)
 
-    async def _compile(self, stages: Sequence[Stage]) -> bool:
+    async def _compile(self, groups: Sequence[KernelGroup]) -> bool:
         """Run `tribodrive compile` and read the printed progress. Return False if the process failed.
 
-        If kernels have to be compiled, a second process compiles the stage `BESIDE` on another processor.
+        If kernels have to be compiled, a second process compiles the group `BESIDE` on another processor.
         """
         other: asyncio.Task[bool] | None = None
         process = await asyncio.create_subprocess_exec(
             *(sys.executable, "-P", "-m", "app", "compile"),  # -P: ignore a folder `app` in the working directory
-            *(stage.name for stage in stages),
+            *(group.name for group in groups),
             stdin=DEVNULL,
             stdout=PIPE,
             start_new_session=True,  # Ctrl-C ends the service only; Python would report a Ctrl-C during its own start
@@ -100,9 +100,9 @@ class StartUp:
                     continue
                 name, percent = progress[1].decode(), int(progress[2])
                 self._advance(name, percent)
-                if other is None and 0 < percent < 100 and BESIDE in stages[1:] and (os.cpu_count() or 1) > 1:
+                if other is None and 0 < percent < 100 and BESIDE in groups[1:] and (os.cpu_count() or 1) > 1:
                     other = asyncio.create_task(self._compile([BESIDE]))
-                if other is not None and {stage.name for stage in stages} - {BESIDE.name} <= {*self.warm}:
+                if other is not None and {group.name for group in groups} - {BESIDE.name} <= {*self.warm}:
                     return await other
             code = await process.wait()
             if code in STOPPED:  # the service itself is about to be ended; what is compiled stays

@@ -10,11 +10,11 @@ from app.errors import Unprocessable
 from app.evaluate import evaluate
 from app.examples import examples
 from app.figures.data import NoFigure
-from app.figures.models.scuffing import contact_temperature, friction
 from app.figures.units import shown
+from app.models.scuffing.figures import contact_temperature, friction
+from app.models.scuffing.request import ScuffingRequest
 from app.pages.results import cards
 from app.schema.fields import leaves
-from app.schema.scuffing import ScuffingRequest
 from tests.support.requests import CONTACT, COUPLING, GONE, changed, refused, solved
 
 COUPLED, SCUFFING, TRAIN = "/v1/coupling", "/v1/scuffing", "/v1/drive-train"

@@ -19,10 +19,10 @@ from app.figures import units
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, Role
 from app.figures.drawing.image import draw
-from app.figures.models import drive_train
 from app.figures.tables import table
+from app.models.drive_train import figures as drive_train
+from app.models.load_distribution.request import FlankModifications
 from app.schema.model import Documented, members
-from app.schema.scuffing import FlankModifications
 from solvers.gears.pair import gear_pair
 from solvers.pumping.spaces import flow_at, prepare
 from solvers.scuffing.safety_results import ThermalPath

@@ -15,11 +15,11 @@ from app.errors import InvalidBody, Unprocessable
 from app.evaluate import answer, evaluate
 from app.examples import examples
 from app.figures.data import Figure, NoFigure
+from app.models.scuffing.request import ScuffingRequest
 from app.pages.cases import Asked
 from app.pages.query import pairs_of
 from app.pages.results import cards, groups
 from app.pages.templating import page_path
-from app.schema.scuffing import ScuffingRequest
 from solvers.lubricants import Lubricant
 from tests.support.fast_pairs import random_request
 from tests.support.pages import html_of

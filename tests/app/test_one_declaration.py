@@ -16,16 +16,18 @@ import pytest
 from fastapi import FastAPI
 
 from app import calculations
-from app.calculations import COUPLING, Calculation
+from app.calculations import Calculation
 from app.errors import InvalidBody, Unprocessable
 from app.evaluate import evaluate, json_answer, written
 from app.http.routes.calculations import add
+from app.models.kernels import COUPLING, Kernels
 from app.pages import csv
 from app.pages.form import FieldView, State, form
 from app.pages.results import entries
 from app.pages.templating import page_path
+from app.schema.answers import Group, Response, group, read
 from app.schema.fields import leaf_at
-from app.schema.model import Group, Request, Response, Section, from_si
+from app.schema.model import Request, Section
 from app.schema.quantities import Input, View
 from app.schema.reading import validated
 from app.settings import settings
@@ -102,11 +104,6 @@ def calculation(inputs: type[Any], result: type[Any], solver: Any) -> Calculatio
         def options(self) -> dict[str, Any]:
             return {}
 
-    class SpringResponse(Response, of=result):
-        """The answer with the deflection of the spring."""
-
-        views: ClassVar = {"deflection": View(headline=1)}
-
     return Calculation(
         path="/v1/spring",
         title="Spring",
@@ -114,8 +111,8 @@ def calculation(inputs: type[Any], result: type[Any], solver: Any) -> Calculatio
         source="Hooke",
         request=SpringRequest,
         solve=solver,
-        response=SpringResponse,
-        stage=COUPLING,
+        response=group(result, "SpringResponse", base=Response, stands=False, deflection=View(headline=1)),
+        kernels=Kernels(COUPLING),
     )
 
 
@@ -302,7 +299,7 @@ class OuterGroup(InnerGroup, of=(Outer, Spring)):
 
 @pytest.mark.parametrize(("deep", "force"), [(Spring(5.0), 5.0), (None, None)])
 def test_an_output_is_read_from_the_member_that_holds_it(deep: Spring | None, force: float | None) -> None:
-    found = from_si(OuterGroup, Outer(Inner(0.001), 0.002, deep), "summary")
+    found = read(OuterGroup, Outer(Inner(0.001), 0.002, deep), "summary").model_dump()
     stiffness = None if deep is None else 2.0
     assert found == {"width_mm": 1.0, "height_mm": 2.0, "force_n": force, "stiffness_n_per_um": stiffness}
 

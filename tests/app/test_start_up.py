@@ -13,8 +13,9 @@ import pytest
 from anyio import to_process
 from fastapi import Request
 
-from app.calculations import BY_PATH, LINE_CONTACT, PUMPING, SCUFFING
+from app.calculations import BY_PATH
 from app.errors import ClientGone, DeadlineExceeded, WarmingUp
+from app.models.kernels import LINE_CONTACT, PUMPING, SCUFFING
 from app.settings import Settings
 from app.workers import pool as pools
 from app.workers import start_up
@@ -45,12 +46,12 @@ def as_request(client: Client) -> Request:
 
 def test_the_stages_of_a_request_depend_on_the_request() -> None:
     scuffing, pumping = BY_PATH["/v1/scuffing"], BY_PATH["/v1/pumping"]
-    assert LINE_CONTACT not in scuffing.stages({"model.lubrication": "closed_form"}.get)
-    assert LINE_CONTACT in scuffing.stages({}.get)
-    assert LINE_CONTACT in scuffing.stages()
-    assert pumping.stages({}.get) == {PUMPING}
-    assert pumping.stages({"model.flow": "pocket_chain"}.get) > {PUMPING}
-    assert LINE_CONTACT not in BY_PATH["/v1/drive-train"].stages({"model.lubrication": "closed_form"}.get)
+    assert LINE_CONTACT not in scuffing.kernels.of({"model.lubrication": "closed_form"}.get)
+    assert LINE_CONTACT in scuffing.kernels.of({}.get)
+    assert LINE_CONTACT in scuffing.kernels.of()
+    assert pumping.kernels.of({}.get) == {PUMPING}
+    assert pumping.kernels.of({"model.flow": "pocket_chain"}.get) > {PUMPING}
+    assert LINE_CONTACT not in BY_PATH["/v1/drive-train"].kernels.of({"model.lubrication": "closed_form"}.get)
 
 
 def test_a_request_waits_for_its_own_stages_only(monkeypatch: pytest.MonkeyPatch) -> None:

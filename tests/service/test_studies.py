@@ -17,8 +17,8 @@ from urllib.parse import urlsplit
 import httpx
 import pytest
 
+from app.calculations import BY_PATH
 from app.examples import examples
-from app.schema.coupling import CouplingResponse
 from app.schema.fields import leaves
 from tests.support.browsing import address_of
 from tests.support.server import (
@@ -43,7 +43,9 @@ SWEEP = "/v1/sweep"
 SLOPE = "modifications.helix_slope_um"
 COUPLING = examples()["pahl-axial-displacement"]
 NUMBERS = [
-    leaf.path for leaf in leaves(CouplingResponse) if leaf.kind == "number" and leaf.is_scalar and "." in leaf.path
+    leaf.path
+    for leaf in leaves(BY_PATH["/v1/coupling"].response)
+    if leaf.kind == "number" and leaf.is_scalar and "." in leaf.path
 ]
 
 

@@ -13,16 +13,16 @@ from unittest.mock import patch
 import numpy as np
 from fastapi import FastAPI, Request
 
-from app.calculations import COUPLING, LOADS
 from app.command import serve
 from app.main import create_app
+from app.models.kernels import COUPLING, LOADS
 from app.studies import points, runner
 from app.studies.points import Chunk, Point, Question, solve_chunk, solve_point
 from app.studies.requests import Overrides
 from app.workers import start_up
 from tests.support.server import HANGING, LONG, LONG_S, NAP, NAP_S
 
-STAGES = (COUPLING, LOADS)
+GROUPS = (COUPLING, LOADS)
 
 
 def sleep(seconds: float) -> float:
@@ -74,7 +74,7 @@ def solve_chunk_with_pauses(question: Question, overrides: Sequence[Overrides]) 
 
 def create_faulty_app() -> FastAPI:
     patch.object(runner, "solve_chunk", solve_chunk_with_pauses).start()
-    patch.object(start_up, "STAGES", STAGES).start()
+    patch.object(start_up, "KERNEL_GROUPS", GROUPS).start()
     app = create_app()
 
     @app.post("/sleep/{seconds}")

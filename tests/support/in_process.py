@@ -6,8 +6,8 @@ from threading import Lock
 import httpx
 from cachetools import LRUCache
 
-from app.calculations import STAGES
 from app.main import create_app
+from app.models.kernels import KERNEL_GROUPS
 from app.settings import MEBIBYTE, settings
 from app.studies.admission import StudyAdmission
 from app.workers.start_up import StartUp
@@ -22,8 +22,8 @@ class InProcess(httpx.BaseTransport):
         app.state.settings = limits
         app.state.pool = pool = InlineWorkers(limits)
         app.state.start_up = start_up = StartUp()
-        for stage in STAGES:
-            start_up._advance(stage.name, 100)
+        for group in KERNEL_GROUPS:
+            start_up._advance(group.name, 100)
         app.state.studies = StudyAdmission(limits, pool)
         app.state.answers = LRUCache(limits.answers_mb * MEBIBYTE, getsizeof=len)
         self._transport = httpx.ASGITransport(app, raise_app_exceptions=False)

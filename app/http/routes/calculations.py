@@ -43,7 +43,7 @@ async def calculated(http: Request, path: str, function: Callable[..., bytes], r
     if the request would take too long, and the errors of the function and of the workers.
     """
     refuse_endless(BY_PATH[path], request, http.app.state.settings.deadline_s)
-    await http.app.state.start_up.wait(http, BY_PATH[path].stages(lambda field: attrgetter(field)(request)))
+    await http.app.state.start_up.wait(http, BY_PATH[path].kernels.of(lambda field: attrgetter(field)(request)))
     content: bytes = await http.app.state.pool.calculate(http, function, path, request)
     return content
 

@@ -65,7 +65,7 @@ async def open_case(http: Request) -> Response:
         asked = opened(await sent.read(), root_of(http))
     if not asked.too_long:
         return redirected(asked.path, asked)
-    await http.app.state.start_up.wait(http, asked.calculation.stages(dict(asked.pairs).get))
+    await http.app.state.start_up.wait(http, asked.calculation.kernels.of(dict(asked.pairs).get))
     shown = await _shown(http, asked, views.page)
     return html(shown.content, shown.status)
 
@@ -150,7 +150,7 @@ async def _answer(
     if not clean and http.scope["method"] == "GET" and (asked.pairs or not asked.pressed):
         return redirected(path_of(http), asked)
     if asked.pairs:
-        await http.app.state.start_up.wait(http, calculation.stages(dict(asked.pairs).get))
+        await http.app.state.start_up.wait(http, calculation.kernels.of(dict(asked.pairs).get))
     shown = await _shown(http, asked, view, *arguments)
     policy = PAGE_POLICY if view is views.page else DOCUMENT_POLICY
     return Response(shown.content, shown.status, media_type=media, headers={"Content-Security-Policy": policy})

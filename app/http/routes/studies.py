@@ -76,7 +76,7 @@ async def streamed(
 async def started(http: Request, kind: type[Study], body: BaseModel, written_as: Format = "ndjson") -> Response:
     """Check a study in a worker, then return a response that streams the results of the study."""
     study: Study = await planned(http, partial(kind, body), getattr(http.app.state.settings, kind.most))
-    await http.app.state.start_up.wait(http, BY_PATH[study.question.endpoint].stages())
+    await http.app.state.start_up.wait(http, BY_PATH[study.question.endpoint].kernels.of())
     encode = study.encoder(written_as)
     return await streamed(http, study, lambda lines, _: encoded(lines, encode), MEDIA_TYPES[written_as])
 

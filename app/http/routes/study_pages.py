@@ -93,7 +93,7 @@ async def _page(http: Request, calculation: Calculation, own: type[StudyPage], p
 async def _planned(http: Request, own: type[StudyPage], asked: Asked, view: Callable[..., Any]) -> Any:
     """Return the result of `view` for the case `asked` and the study `own`; `view` runs in a worker."""
     if asked.pairs:
-        await http.app.state.start_up.wait(http, asked.calculation.stages())
+        await http.app.state.start_up.wait(http, asked.calculation.kernels.of())
     return await planned(http, partial(view, own, asked), getattr(http.app.state.settings, own.plan.most))
 
 

@@ -11,10 +11,10 @@ from typing import Annotated, Any, ClassVar
 from app.errors import Unprocessable
 from app.figures.comparison import compared
 from app.figures.data import Figure, Hue, NoFigure, Row
-from app.figures.models.drive_train import LOAD_ALONE
 from app.figures.studies import corners
 from app.figures.units import axis_of
 from app.figures.wording import listed, number
+from app.models.drive_train.figures import LOAD_ALONE
 from app.pages.cases import REFUSED, Case
 from app.pages.query import CORNER
 from app.pages.studies.controls import Control, numbered

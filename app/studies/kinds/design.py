@@ -16,9 +16,9 @@ from scipy.optimize import NonlinearConstraint, minimize
 from app.errors import Unprocessable
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, values
-from app.figures.models.drive_train import GAP, LOAD_ALONE
 from app.figures.studies import Lead, lead_chart, search
 from app.figures.units import axis_of
+from app.models.drive_train.figures import GAP, LOAD_ALONE
 from app.pages.cases import Case
 from app.pages.studies.controls import Control
 from app.pages.studies.page import OUTPUT, Controls, Link, Number, Result, Table

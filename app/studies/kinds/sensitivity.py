@@ -22,6 +22,7 @@ from app.figures.data import Figure
 from app.figures.studies import Influence, influence
 from app.figures.units import axis_of
 from app.figures.wording import difference_unit
+from app.models.scuffing.request import GIVEN_BULK
 from app.pages.query import link
 from app.pages.studies.controls import numbered
 from app.pages.studies.page import Link, Number, Result, StudyPage, Table
@@ -30,7 +31,6 @@ from app.pages.study_links import VARY
 from app.pages.typesetting import shown
 from app.schema.fields import ITEM, Leaf, leaves
 from app.schema.quantities import Input
-from app.schema.scuffing import GIVEN_BULK
 from app.studies import runner
 from app.studies.fields import NUMBERS, fault, indexed, not_a_number, scalar_at, value_at
 from app.studies.points import BaseRequest, Point, check_count, check_distinct

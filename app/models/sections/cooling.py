@@ -1,10 +1,9 @@
-"""The cooling of a gear pair or a gear unit, and the results of the heat balance."""
+"""The cooling of a gear pair or a gear unit."""
 
 from typing import ClassVar
 
-from app.schema.model import Group, Section
+from app.schema.model import Section
 from solvers.heat_balance import inputs as si
-from solvers.heat_balance import results
 
 
 class CasingOfGears(Section, of=si.Casing):
@@ -45,42 +44,3 @@ class GearCooling(Section, of=si.Cooling):
             "wetting_share": measured.of_a_gear,
             "other_w": measured.drain_c is not None,
         }
-
-
-class GearHeat(Group, of=results.GearTemperatures):
-    """Temperatures of a gear, the frictional heat that enters the gear, and the cooling by the oil film."""
-
-
-class BearingHeatBalance(Group, of=results.BearingHeat):
-    """Temperatures, oil flow and friction of a plain bearing, as computed by the heat balance."""
-
-
-class FlowOfHeat(Group, of=results.HeatFlow):
-    """A heat flow in the network of the heat balance, from one node to another."""
-
-
-class HeatLosses(Group, of=results.HeatLosses):
-    """The power losses that heat the oil and the gears."""
-
-
-class HeatSuppliedRemoved(Group, of=results.Balance):
-    """The supplied heat, the removed heat, and the difference of the two divided by the supplied heat."""
-
-
-class BulkByStandards(Group, of=results.BulkEstimates):
-    """Bulk temperatures by ISO/TR 13989-1 and ISO/TS 6336-22, for comparison with the heat balance."""
-
-
-class BandOfHeat(Group, of=results.HeatBand):
-    """Ranges of the flank temperatures and of the safety factor.
-
-    The ranges show the effect of the uncertain cooling. They state no probability.
-    """
-
-
-class HeatBalanceResult(Group, of=results.Heat):
-    """Temperatures, losses and heat flows that result from the heat balance."""
-
-
-class CoolingInForce(Group, of=results.CoolingInForce):
-    """The values that the calculation uses for cooling inputs that a request may leave out."""

@@ -1,291 +1,24 @@
-"""Requests and answers of /v1/scuffing and /v1/scuffing/load-distribution."""
+"""Request of /v1/scuffing, and what requests about gear units share with it."""
 
 from abc import abstractmethod
-from dataclasses import replace
 from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from app.schema.cooling import GearCooling
-from app.schema.gears import GearMaterials, ScuffingGears
-from app.schema.line_contact import FilmModel
-from app.schema.model import Derived, Group, Request, Response, Section
-from app.schema.oil import Oil
-from app.schema.quantities import Input, View
+from app.models.line_contact.request import FilmModel
+from app.models.load_distribution.request import GearPairRequest, LoadDistributionModel, distribution_inputs
+from app.models.sections.cooling import GearCooling
+from app.models.sections.oil import Oil
+from app.schema.model import Request, Section
+from app.schema.quantities import Input
 from solvers.contact import ehl
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.pair import gear_pair
 from solvers.heat_balance import Cooling
-from solvers.heat_balance.notices import KNOWN_WITHIN
-from solvers.lubricants import OilInUse
-from solvers.materials import Solid
 from solvers.scuffing import inputs as si
-from solvers.scuffing import results, safety_results
-from solvers.scuffing.micropitting import results as film_results
 from solvers.scuffing.thermal.bulk import balance_share, method_asked
-
-
-class FlankModifications(Section, of=si.Modifications, without=("lead_curve",)):
-    """Gaps between the flanks because of modifications and misalignment.
-
-    The gaps are measured along the transverse line of action. A gap is positive where material is missing.
-    """
-
-    def unused(self) -> dict[str, bool]:
-        """Mark the length of a relief as unused if the height of this relief is zero.
-
-        Mark the exponent of the reliefs as unused if the heights of all reliefs are zero.
-        """
-        amplitudes = {relief: getattr(self, f"{relief}_um") for relief in ("tip_relief", "root_relief", "end_relief")}
-        lengths = {f"{relief}_length_mm": value == 0.0 for relief, value in amplitudes.items()}
-        return lengths | {"relief_exponent": all(lengths.values())}
-
-
-class ScuffingLoad(Section, of=si.Load):
-    """The speed, and either the torque or the power."""
-
-    exclusive: ClassVar = (("pinion_torque_n_m", "power_kw"),)
-    choice_code: ClassVar = "torque_or_power"
-    choice_missing: ClassVar = "torque_or_power"
-
-    pinion_torque_n_m: float | None = None
-
-
-class LoadDistributionModel(Section, of=(si.Model, si.Resolution)):
-    """Choices that the paper leaves open in the model of the load distribution."""
-
-
-class GearPairRequest(Request):
-    """A loaded gear pair with modifications and misalignment."""
-
-    gears: Annotated[ScuffingGears, Input("gear pair")]
-    load: Annotated[ScuffingLoad, Input("load", text="torque or power, and speed")]
-    modifications: Annotated[FlankModifications, Input("modifications", text="modification and misalignment")] = (
-        FlankModifications()
-    )
-    materials: Annotated[GearMaterials, Input("materials", text="materials of the pair")] = GearMaterials()
-
-
-def distribution_inputs(request: Request, gears: GearPairInputs, load: si.Load) -> si.LoadDistributionInputs:
-    """Return the solver's inputs for the load distribution of the pair `gears` under `load`.
-
-    The modifications, the materials and the coefficient of friction are taken from the request.
-    """
-    return request.si(
-        si.LoadDistributionInputs,
-        gears=gears,
-        load=load,
-        pinion_material=request.materials.pinion.si(Solid),
-        wheel_material=request.materials.wheel.si(Solid),
-        resolution=request.model.si(si.Resolution),
-    )
-
-
-class LoadDistributionRequest(GearPairRequest):
-    """A loaded gear pair with modifications, misalignment and friction between the flanks."""
-
-    friction_coefficient: Annotated[float, Input.of(si.LoadDistributionInputs, "friction_coefficient")] = 0.06
-    model: Annotated[
-        LoadDistributionModel, Input("model", text="choices where the paper leaves room", advanced=True)
-    ] = LoadDistributionModel()
-
-    def inputs(self) -> si.LoadDistributionInputs:
-        return distribution_inputs(self, self.gears.si(GearPairInputs), self.load.si(si.Load))
-
-    def unused(self) -> dict[str, bool]:
-        """Mark the roughness as unused, because the loads do not depend on the roughness."""
-        return {"materials.pinion.roughness_um": True, "materials.wheel.roughness_um": True}
-
-
-FILM_SAFETY = View(limit=1.0, bound="lower")
-
-
-class MicropittingTestFilm(Group, of=film_results.FilmOfTest):
-    """The film of the test gears C-GF in the micropitting test of this oil.
-
-    The film is computed at the load stage at which the oil fails the test.
-    """
-
-
-class LocalFilmPoint(Group, of=film_results.LocalPoint):
-    """The film at a point of the feature line."""
-
-    views: ClassVar = {"safety": FILM_SAFETY}
-
-
-class LocalFilm(Group, of=film_results.LocalFilm):
-    """The film at each point of the flank, computed with the load at this point (method A)."""
-
-    views: ClassVar = {"safety": replace(FILM_SAFETY, needs="micropitting.failure_load_stage", verdict=".verdict")}
-
-
-class StandardFilmPoint(Group, of=film_results.StandardPoint):
-    """The film at a point of the path of contact."""
-
-    views: ClassVar = {"safety": FILM_SAFETY}
-
-
-class StandardFilm(Group, of=film_results.StandardFilm):
-    """The film of a spur pair without relief, computed with a uniform load over the face (method B)."""
-
-    views: ClassVar = {"safety": FILM_SAFETY}
-
-
-class MicropittingResult(Group, of=film_results.Micropitting):
-    """The film on the flanks, compared with the film that the flanks need against micropitting."""
-
-
-class FlankWear(Group, of=film_results.Wear):
-    """Depth of mild wear of each gear. The wear of a gear is stated per million revolutions of this gear."""
-
-
-class ScuffingGeometry(Group, of=results.Geometry):
-    """Geometry of the mesh."""
-
-
-class ContactLengthCurves(Group, of=results.LengthCurves):
-    """Total length of the contact lines over one base pitch.
-
-    In a spur pair, the total length may jump at some roll positions. Such a position occurs twice: first with the
-    length before the jump, and then with the length after the jump.
-    """
-
-
-class ContactLineLengths(Group, of=results.ContactLines):
-    """Smallest, largest and mean total length of the contact lines."""
-
-
-class ToothStiffnessCurves(Group, of=results.StiffnessCurves):
-    """Stiffness of one pair of teeth along the path of contact."""
-
-
-class ToothStiffness(Group, of=results.Stiffness):
-    """Stiffness per face width, for one pair of teeth and for the mesh."""
-
-
-class TransmissionErrorCurves(Group, of=results.ErrorCurves):
-    """Transmission error over one base pitch.
-
-    In a spur pair, the transmission error may jump at some roll positions. Such a position occurs twice: first with the
-    error before the jump, and then with the error after the jump.
-    """
-
-
-class TransmissionErrorResult(Group, of=results.TransmissionError):
-    """Transmission error along the transverse line of action."""
-
-    views: ClassVar = {"peak_to_peak": View(headline=3)}
-
-
-class MeshLoss(Group, of=results.FrictionLoss):
-    """Friction loss of the mesh, computed with the mean coefficient of friction.
-
-    Power and efficiency are computed for the transmitted power, without load factors.
-    """
-
-
-class FlankPlace(Group, of=results.Place):
-    """A point of the flank."""
-
-
-class FlankPressure(Group, of=results.Pressure):
-    """Largest Hertzian pressure of the dry contact, and the place where this pressure occurs."""
-
-    views: ClassVar = {"max": View(headline=1)}
-
-
-class FeatureLineCurves(Group, of=results.FeatureLine):
-    """Curves along the feature line, a diagonal of the flank from A1 to E2.
-
-    A1 lies at the start of the path of contact (point A), at the end of the face that meshes first. E2 lies at the end
-    of the path of contact (point E), at the other end of the face. Point C also lies on the feature line.
-    """
-
-
-class FlankFields(Group, of=results.Flank):
-    """Maps of modification, line load and pressure over the flank, indexed `[profile][face]`."""
-
-
-class FlashTemperature(Group, of=safety_results.Flash):
-    """Largest flash temperatures, and the places where they occur.
-
-    If `model.lubrication` is `closed_form`, the values by thermal EHL are null.
-    """
-
-
-class ContactTemperatureResult(Group, of=safety_results.ContactTemperature):
-    """The bulk temperature and the largest contact temperature.
-
-    The contact temperature is the sum of the bulk temperature and the flash temperature.
-    """
-
-    views: ClassVar = {
-        "blok_max": View(headline=2, limit="safety.scuffing_c", bound="upper"),
-        "thermal_ehl_max": View(limit="safety.scuffing_c", bound="upper"),
-    }
-
-
-class ThinnestFilm(Group, of=safety_results.Film):
-    """The thinnest film and its place; both are null if no point of the flank carries load."""
-
-    views: ClassVar = {"thickness_ratio": View(headline=3, limit=1.0, bound="lower", verdict=".thickness_regime")}
-
-
-class ScuffingSafety(Group, of=safety_results.Safety):
-    """Safety factors against scuffing, and the scuffing temperature."""
-
-    views: ClassVar = {
-        "blok_factor": View(
-            headline=1,
-            limit=1.0,
-            bound="lower",
-            needs="temperatures.scuffing_c",
-            verdict=".verdict",
-            band="heat.band.safety",
-        ),
-        "feature_line_factor": View(limit=1.0, bound="lower"),
-        "thermal_ehl_factor": View(limit=1.0, bound="lower"),
-    }
-
-
-class ScuffingPathCurves(Group, of=(safety_results.ScuffingPath, safety_results.ThermalPath)):
-    """Curves along a line on the flank, from point A to point E of the path of contact.
-
-    Values that only the thermal EHL solution provides are null if `model.lubrication` is `closed_form`.
-    """
-
-    views: ClassVar = {"thickness_ratio": View(limit=1.0, bound="lower")}
-
-
-class MeshDerived(Derived, of=results.Derived, without=("rack_tip_radius",)):
-    """The values used for the torque, the power and the lengths.
-
-    If the request leaves one of these values open, the value is computed.
-    """
-
-
-class ScuffingDerived(MeshDerived, of=results.Derived):
-    """The values used for the torque, the power, the lengths and the tip radius of the rack.
-
-    If the request leaves one of these values open, the value is computed.
-    """
-
-
-class FlankLoad(Group, of=results.LoadOnFlank):
-    """Forces and line loads on the flank."""
-
-    views: ClassVar = {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)}
-
-    pair_share: list[list[float]] | None
-
-
-class LoadDistributionResponse(Response, of=results.LoadDistribution):
-    """Results of the load distribution of a gear pair.
-
-    If there is no solution, the sections with results are missing.
-    """
 
 
 class ScuffingTest(Section, of=si.ScuffingTest):
@@ -394,7 +127,6 @@ ESTER_FACTOR = (
 ESTER_FILM = (
     f"{ESTER_FACTOR}. For the film against micropitting, the pressure-viscosity coefficient of a mineral oil is used"
 )
-NOT_VALIDATED, KNOWN = "not_validated", f"known to about ±{KNOWN_WITHIN:g} K"
 GIVEN_BULK = (
     "a given bulk temperature does not change with the oil temperature. If only the oil becomes hotter, the stated "
     "safety rises, because the safety compares temperature differences from the oil temperature"
@@ -566,39 +298,3 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
 
     def inputs(self) -> si.ScuffingInputs:
         return self.scuffing_inputs(*self.running())
-
-
-class ScuffingOilDerived(ScuffingDerived, of=(safety_results.ScuffingDerived, OilInUse, safety_results.BulkInForce)):
-    """The values used for torque, power and lengths, how the bulk temperature came about, and the oil's properties.
-
-    The properties of the oil hold at the reference temperature of the oil.
-    """
-
-
-def how_well_known(response: Response, *paths: str) -> dict[str, str]:
-    """Return, for each of the `paths`, the remark that the temperature at this path is uncertain.
-
-    If the temperatures do not follow from a heat balance, or if a gear temperature was measured, the result is empty.
-    """
-    return dict.fromkeys(paths, KNOWN) if NOT_VALIDATED in {notice.code for notice in response.warnings} else {}
-
-
-class HeatedFlankFields(Group, of=safety_results.HeatedFlank):
-    """Maps of load distribution, flash temperature and film over the flank, indexed `[profile][face]`."""
-
-
-class ScuffingResponse(LoadDistributionResponse, of=safety_results.Scuffing):
-    """Results of the load distribution and of the scuffing check.
-
-    If there is no solution, the sections with results are missing.
-    """
-
-    flank: HeatedFlankFields | None
-    derived: ScuffingOilDerived
-
-    def remarks(self) -> dict[str, str]:
-        """Return the remark about the uncertainty of the bulk temperature.
-
-        There is no remark if a gear temperature was measured, or if there is no heat balance.
-        """
-        return how_well_known(self, "contact_temperature.bulk_c")

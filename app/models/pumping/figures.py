@@ -7,9 +7,9 @@ import numpy as np
 from app.figures import parts
 from app.figures.data import Axis, Figure, Hue, Level, Line, Map, Mark, NoFigure, Panel, Role, Row, Scale, Span, Values
 from app.figures.declaration import Declaration, present
-from app.figures.models.load_distribution import face, section
 from app.figures.units import MM, RPM, axis, shown
 from app.figures.wording import UNCERTAIN, number, percent, ratio, without_rounding
+from app.models.load_distribution.figures import face, section
 from solvers.pumping.inputs import ChokingInputs, Flow, PumpingInputs, PumpingSetup
 from solvers.pumping.results import ChokingCurves, ChokingSpeeds, FaceProfile, PumpingResult, SpacesResult
 from solvers.pumping.speed_scan import speed_scan

@@ -13,10 +13,12 @@ import numpy as np
 from app.figures import parts
 from app.figures.data import Axis, Figure, Hue, Level, Line, NoFigure, Panel, Role, Span, Values, values
 from app.figures.declaration import Build, Declaration, present
-from app.figures.models import heat_balance, load_distribution, micropitting
-from app.figures.models.load_distribution import PATH, path_points
 from app.figures.units import MM, UM, axis
 from app.figures.wording import number
+from app.models.load_distribution import figures as load_distribution
+from app.models.load_distribution.figures import PATH, path_points
+from app.models.scuffing import heat_balance_figures as heat_balance
+from app.models.scuffing import micropitting_figures as micropitting
 from solvers.drive_train.results import FlankMaps
 from solvers.quantity import UNITS
 from solvers.scuffing.inputs import ScuffingInputs

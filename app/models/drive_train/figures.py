@@ -9,12 +9,13 @@ import numpy as np
 from app.figures import parts
 from app.figures.data import Axis, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Row, Span, Values, values
 from app.figures.declaration import Declaration
-from app.figures.models import heat_balance, micropitting
-from app.figures.models.load_distribution import face, over_flank, section
-from app.figures.models.scuffing import heat_over_flank
 from app.figures.sketches import shafts
 from app.figures.units import MM, axis
 from app.figures.wording import number, percent, without_rounding
+from app.models.load_distribution.figures import face, over_flank, section
+from app.models.scuffing import heat_balance_figures as heat_balance
+from app.models.scuffing import micropitting_figures as micropitting
+from app.models.scuffing.figures import heat_over_flank
 from solvers.drive_train import solve
 from solvers.drive_train.film.law import FilmLaw, film_at
 from solvers.drive_train.inputs import DriveTrainInputs, Effects, JournalBearing, Shaft, Vector2

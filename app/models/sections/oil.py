@@ -6,10 +6,10 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import model_validator
 from pydantic_core import PydanticCustomError
 
-from app.schema.model import Derived, Section
+from app.schema.model import Section
 from app.schema.quantities import Input
 from solvers.coupling.inputs import Lubricant as OilAtTeeth
-from solvers.lubricants import Lubricant, OilInUse, OilKind
+from solvers.lubricants import Lubricant, OilKind
 from solvers.oils import SQUARE_MILLIMETRE, VISCOSITY_INDICES, IsoGrade, OilSheet, iso_vg, sheet_of_index
 from solvers.quantity import UNITS
 
@@ -297,10 +297,3 @@ class CouplingLubricant(SheetOil):
         """
         of_a_sheet = () if self.by_sheet else (*SheetOil.model_fields, "temperature_c")
         return super().unused() | dict.fromkeys(of_a_sheet, True) | {"viscosity_pa_s": self.by_sheet}
-
-
-class OilDerived(Derived, of=OilInUse):
-    """Properties of the oil at the reference temperature; all properties are null if no oil is given.
-
-    Each property is either given in the request or follows from the grade or data sheet.
-    """

@@ -8,9 +8,9 @@ import numpy as np
 from app.figures import parts
 from app.figures.data import Figure, Hue, Level, Line, Map, Mark, NoFigure, Panel, Values
 from app.figures.declaration import present
-from app.figures.models.load_distribution import PATH, PROFILE, face
 from app.figures.units import MM, axis, shown
 from app.figures.wording import number, percent
+from app.models.load_distribution.figures import PATH, PROFILE, face
 from solvers.drive_train.results import DriveTrainResult, FlankMaps
 from solvers.scuffing import solve_scuffing
 from solvers.scuffing.inputs import Modifications, ScuffingInputs

@@ -1,13 +1,12 @@
-"""One lubricated line contact: request and answer of /v1/scuffing/line-contact."""
+"""Request of /v1/scuffing/line-contact."""
 
-from typing import Annotated, Any, ClassVar
+from typing import Annotated, Any
 
-from app.schema.gears import Surface
-from app.schema.model import Group, Request, Response, Section
-from app.schema.oil import Oil, OilDerived
-from app.schema.quantities import Input, View
+from app.models.sections.gears import Surface
+from app.models.sections.oil import Oil
+from app.schema.model import Request, Section
+from app.schema.quantities import Input
 from solvers.contact import ehl
-from solvers.contact.ehl import results
 from solvers.errors import InvalidInput
 from solvers.oils import lubricant_at
 
@@ -71,73 +70,3 @@ class LineContactRequest(Request):
             raise InvalidInput("no_oil", message, "lubricant")
         inlet = self.temperatures.si(ehl.Temperatures).inlet
         return self.si(ehl.LineContactInputs, lubricant=lubricant_at(oil, inlet))
-
-
-class LineContactDerived(OilDerived, of=results.Derived):
-    """Mean speed and reduced modulus of the two surfaces, and properties of the oil at the inlet."""
-
-
-class HertzContact(Group, of=results.HertzContact):
-    """Half width and largest pressure of the dry contact."""
-
-    views: ClassVar = {"max_pressure": View(limit=4000.0, bound="upper")}
-
-
-class ContactNumbers(Group, of=results.Dimensionless):
-    """Dimensionless numbers of the contact."""
-
-
-class FilmThickness(Group, of=results.FilmThickness):
-    """Film thickness of the solution, and minimum film thickness by the formula of Dowson and Higginson.
-
-    If there is no solution, only the value by the formula is given. The other values are then null.
-    """
-
-    views: ClassVar = {"minimum": View(headline=1)}
-
-
-class FilmPressure(Group, of=results.ContactPressure):
-    """Pressure in the film."""
-
-
-class FilmTemperature(Group, of=results.ContactTemperature):
-    """Largest temperatures of the film and of both surfaces."""
-
-    views: ClassVar = {"film_max": View(headline=2)}
-
-
-class FilmFriction(Group, of=results.ContactFriction):
-    """Friction in the film."""
-
-    views: ClassVar = {"coefficient": View(headline=3)}
-
-
-class FilmHeat(Group, of=results.ContactHeat):
-    """Heat per length of contact. Heat that enters a surface is positive. Heat that leaves with the oil is positive."""
-
-
-class ContactConvergence(Group, of=results.Convergence):
-    """The end of the iteration: number of Newton steps, last changes and remaining errors."""
-
-
-class MeshErrors(Group, of=results.MeshError):
-    """Estimated relative errors of the results due to the numerical grid.
-
-    If a coefficient of friction is below 0.001, its error is relative to 0.001. If a flash temperature is below 25 K,
-    its error is relative to 25 K.
-    """
-
-
-class ContactCurves(Group, of=results.ContactCurves):
-    """Curves along the contact; temperatures and heat fluxes are null if the contact is isothermal."""
-
-
-class ContactField(Group, of=results.ContactField):
-    """Temperature in the film, indexed [x][film fraction].
-
-    x is the position along the flow. The film fraction is the height above surface 1 divided by the film thickness.
-    """
-
-
-class LineContactResponse(Response, of=results.LineContactResult):
-    """Results of a lubricated line contact. If there is no solution, the values that need the solution are null."""

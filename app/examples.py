@@ -40,7 +40,8 @@ def examples() -> dict[str, Example]:
     Starters within the limits of their models come first, then starters outside these limits, then all other examples.
     Each of these groups is in alphabetical order.
     """
-    stored = [path for path in files("app.examples").iterdir() if path.name.endswith(".json")]
+    folders = [model / "examples" for model in files("app.models").iterdir() if (model / "examples").is_dir()]
+    stored = [path for folder in folders for path in folder.iterdir() if path.name.endswith(".json")]
     texts = {path.name.removesuffix(".json"): path.read_text("utf-8") for path in stored}
     read = [Example(name=name, **json.loads(text)) for name, text in sorted(texts.items())]
     ordered = sorted(read, key=lambda example: (not example.starter, example.source == OUTSIDE))

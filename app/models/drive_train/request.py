@@ -1,4 +1,4 @@
-"""Requests and answers for a complete gear unit: /v1/drive-train and /v1/drive-train/warm-up."""
+"""Requests for a complete gear unit: /v1/drive-train and /v1/drive-train/warm-up."""
 
 from collections.abc import Iterator
 from functools import partial
@@ -7,36 +7,28 @@ from typing import Annotated, Any, ClassVar, Literal, Self
 from pydantic import BeforeValidator, Field, model_validator
 from pydantic_core import PydanticCustomError
 
-from app.schema.cooling import GearCooling
-from app.schema.coupling import CrownedCoupling, ProportionsInForce
-from app.schema.gears import BacklashGears, GearMaterials
-from app.schema.model import Group, Response, Section
-from app.schema.oil import CouplingLubricant, Oil
-from app.schema.pumping import GearGroove, Mist, PumpingOptions
-from app.schema.quantities import Input, View
-from app.schema.scuffing import (
+from app.models.coupling.request import CrownedCoupling
+from app.models.load_distribution.request import FlankModifications, ScuffingLoad
+from app.models.pumping.request import GearGroove, Mist, PumpingOptions
+from app.models.scuffing.request import (
     PRACTICAL_FRICTION,
     ContactTemperatures,
-    FlankModifications,
-    MeshDerived,
     MeshInOil,
     MeshModel,
     Micropitting,
-    ScuffingLoad,
-    how_well_known,
 )
-from solvers.drive_train import derived, results, warm_up
+from app.models.sections.cooling import GearCooling
+from app.models.sections.gears import BacklashGears, GearMaterials
+from app.models.sections.oil import CouplingLubricant, Oil
+from app.schema.model import Section
+from app.schema.quantities import Input
 from solvers.drive_train import inputs as si
-from solvers.drive_train.shafts import thrust_budget
+from solvers.drive_train import warm_up
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GROUND_FILLET, RACK_A, GearPairInputs
-from solvers.heat_balance.warm_up import WarmUp
-from solvers.heat_balance.warm_up import WarmUpCurves as CurvesOfNodes
-from solvers.lubricants import OilInUse
 from solvers.pumping import inputs as pumping
 from solvers.quantity import UNITS
 from solvers.scuffing import inputs as mesh
-from solvers.scuffing.safety_results import BulkInForce
 
 
 class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
@@ -458,204 +450,3 @@ class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
 
     def inputs(self) -> warm_up.WarmUpInputs:  # type: ignore[override]
         return self.si(warm_up.WarmUpInputs, unit=super().inputs())
-
-
-class BearingLoad(Group, of=results.BearingResult):
-    """Results of a bearing. If the bearing is not a plain bearing, the values for plain bearings are null."""
-
-
-class ShaftThrust(Group, of=thrust_budget.Thrust):
-    """Axial forces on a shaft, positive towards +Z.
-
-    Of the axial friction force in the couplings, only the largest possible magnitude is known. The load on the thrust
-    bearing therefore lies between the two bounds `lower_n` and `upper_n`.
-    """
-
-    views: ClassVar = {"use": View(limit=1.0)}
-
-
-class ShaftLine(Group, of=results.ShaftCurves):
-    """Displacement and twist of a shaft along its axis."""
-
-
-class UnitCouplingState(Group, of=results.CouplingResult):
-    """Tilts and friction of both hubs of a coupling, and the force and the moment on the hub of the unit."""
-
-
-class BearingInForce(Group, of=derived.DerivedBearing):
-    """The clearance and the oil viscosity that are used for a plain bearing; both are null for other bearings."""
-
-
-class SectionInForce(Group, of=derived.DerivedSection):
-    """The outer diameter that is used for a section of a shaft."""
-
-
-class ShaftInForce(Group, of=derived.DerivedShaft):
-    """The values that the calculation uses for shaft inputs that a request may leave out."""
-
-
-class HeatInForce(Group, of=derived.DerivedHeat):
-    """The wall responses that are used for both gears."""
-
-
-class TemperaturesInForce(Group, of=(derived.DerivedTemperatures, BulkInForce)):
-    """The bulk temperature and how it came about, the scuffing temperature and the lubricant factor."""
-
-
-class GapCurves(Group, of=results.GapCurves):
-    """Gaps between the flanks, and the force on the flanks, over the face.
-
-    A gap is positive where the flanks move apart.
-    """
-
-
-class TrainLoad(Group, of=results.FaceLoad):
-    """The distribution of the load over the face."""
-
-    views: ClassVar = {"face_load_factor": View(headline=2), "contact_fraction": View(percent=True)}
-
-
-class TrainSafety(Group, of=results.TrainSafety):
-    """Safety factors against scuffing.
-
-    If `model.lubrication` is `closed_form`, the factors by thermal EHL are null. Each factor by thermal EHL belongs to
-    a line on the flank. If the temperature at any point of this line is not known, the factor is null.
-    """
-
-    views: ClassVar = {
-        "blok_feature": View(limit=1.0, bound="lower"),
-        "blok_flank": View(limit=1.0, bound="lower"),
-        "thermal_ehl_feature": View(limit=1.0, bound="lower"),
-        "thermal_ehl_profile": View(limit=1.0, bound="lower"),
-        "minimum": View(headline=1, limit=1.0, bound="lower", band="heat.band.safety"),
-    }
-
-
-class TrainFlash(Group, of=results.FlashPlaces):
-    """Largest flash temperatures and largest contact temperature, all by Blok's formula."""
-
-
-class TrainLosses(Group, of=results.TrainLosses):
-    """Power losses of the unit, and its efficiency."""
-
-
-class TrainBalance(Group, of=results.ForceBalance):
-    """Remaining errors in the balance of forces and moments on the shafts; null if the unit has no load."""
-
-
-class TrainConvergence(Group, of=results.Convergence):
-    """The end of the iteration between the shafts and the mesh: the number of steps and the last residual."""
-
-
-class TrainMaps(Group, of=results.FlankMaps):
-    """Maps of load, pressure, temperature and film over the flank, indexed `[profile][face]`."""
-
-
-class ShaftSummary(Group, of=results.ShaftResult, without=("curves",)):
-    """Results of the bearings of a shaft, and the axial forces on the shaft."""
-
-
-class ShaftState(ShaftSummary, of=results.ShaftResult):
-    """Results of the bearings of a shaft, the axial forces on the shaft, and the displaced axis of the shaft."""
-
-
-class CouplingInForce(Group, of=derived.DerivedCoupling):
-    """The values that the calculation uses for coupling inputs that a request may leave out."""
-
-    coupling: ProportionsInForce
-
-
-class OilInForce(Group, of=OilInUse, stands=False):
-    """Properties of the gears' oil at the reference temperature."""
-
-
-class StateDerived(Group, of=derived.Derived, only=("temperatures",)):
-    """The temperatures and the lubricant factor that are used for this state of the unit."""
-
-
-class DriveTrainDerived(MeshDerived, of=derived.Derived):
-    """The values that the calculation uses for inputs that a request may leave out.
-
-    The groups of values have the names of the request's sections.
-    """
-
-    lubricant: OilInForce | None
-
-
-class MisalignmentParts(Group, of=results.Parts):
-    """Parts of the slope of the gap due to the shafts: one part per cause, such as bending or torsion.
-
-    The parts are computed for the load distribution at the end of the iteration between shafts and mesh.
-    """
-
-    member_unit: ClassVar = "um"
-
-
-class MisalignmentSummary(Group, of=results.Misalignment, without=("curves",)):
-    """Slope, crown and range of two gaps over the face: the gap due to the shafts, and the gap due to heat.
-
-    A negative slope means that the gap opens towards the end that meshes first. This end then carries less load.
-    """
-
-    views: ClassVar = {"shaft_slope": View(headline=3)}
-
-
-class MisalignmentState(MisalignmentSummary, of=results.Misalignment):
-    """The two gaps over the face, due to the shafts and due to heat, with their curves.
-
-    A negative slope means that the gap opens towards the end that meshes first. This end then carries less load.
-    """
-
-
-class TrainSummary(Group, of=results.DriveTrainResult, without=("flank", "states", "heat")):
-    """A summary of the results of the unit in a state other than the hot state."""
-
-    misalignment: MisalignmentSummary
-    shafts: list[ShaftSummary]
-    derived: StateDerived
-
-
-class TrainStates(Group, of=results.States):
-    """Results of the unit in states other than the hot state."""
-
-    cold: TrainSummary | None
-
-
-class WarmUpCurves(Group, of=CurvesOfNodes):
-    """Temperatures of the nodes of the heat balance, over time."""
-
-
-class WarmUpOfNodes(Group, of=WarmUp):
-    """The warm-up of every node of the heat balance."""
-
-    views: ClassVar = {"greatest_difference": View(headline=1)}
-
-
-class AlignmentAtTimes(Group, of=warm_up.AlignmentOverTime):
-    """Face load factor, safety factor and slope of the gap at five points in time of the warm-up."""
-
-
-class WarmUpResponse(Response, of=warm_up.UnitWarmUp):
-    """Results of a gear unit that warms up.
-
-    If there is no solution, the sections with results are missing.
-    """
-
-    views: ClassVar = {
-        "least_safety": View(headline=2, limit=1.0, bound="lower", needs="temperatures.scuffing_c"),
-        "largest_face_load_factor": View(headline=3),
-    }
-
-
-class DriveTrainResponse(Response, of=results.DriveTrainResult):
-    """Results of a complete gear unit.
-
-    If there is no solution, the sections with results are missing.
-    """
-
-    def remarks(self) -> dict[str, str]:
-        """Return the remark about the uncertainty of the flank temperatures.
-
-        There is no remark if a gear temperature was measured, or if there is no heat balance.
-        """
-        return how_well_known(self, "heat.pinion.flank_c", "heat.wheel.flank_c")

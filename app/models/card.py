@@ -1,0 +1,132 @@
+"""The card of a model: all that `app` knows about it. `app.calculations` lists the cards."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+from app.figures.declaration import Declaration
+from app.models.kernels import Kernels
+from app.schema.answers import Response
+from app.schema.model import Request
+
+NEAR_LIMIT = 0.8  # a value above this share of an upper limit is close to the limit
+
+
+class Verdict(NamedTuple):
+    """The level of a number (good, near, bad or plain), and the reason for this level in words."""
+
+    level: str
+    text: str
+
+
+class ScuffingPaths(NamedTuple):
+    """Dotted paths of the contact temperature and the scuffing temperature in an answer."""
+
+    contact: str
+    limit: str
+
+
+class FileResult(NamedTuple):
+    """A result that is written into a REXS file: its path, the name of the attribute there, and the unit there."""
+
+    path: str
+    attribute: str
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class FromFile:
+    """What a request takes from the draft that was read from a REXS file.
+
+    `sections` are the sections of the draft that the request has, without the fields in `unknown`; None: all sections.
+    `renamed` maps paths and sections of the draft to those of the request.
+    """
+
+    sections: frozenset[str] | None = None
+    unknown: frozenset[str] = frozenset()
+    renamed: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def loaded(self) -> bool:
+        """Whether the request takes the load of the draft as it is."""
+        return self.sections is not None and "load" in self.sections
+
+    def path(self, drafted: str) -> str | None:
+        """Return the path of a field of the draft in the request; None if the request does not have the field."""
+        if drafted in self.renamed:
+            return self.renamed[drafted]
+        section = drafted.partition(".")[0]
+        if section in self.renamed:
+            return drafted.replace(section, self.renamed[section], 1)
+        known = self.sections is None or section in self.sections
+        return drafted if known and drafted not in self.unknown else None
+
+
+def _nothing(_: Any) -> dict[str, Any]:
+    return {}
+
+
+def _silence(_: Any) -> str:
+    return ""
+
+
+@dataclass(frozen=True, slots=True)
+class Words:
+    """What pages, studies and files say of an endpoint's answers. Paths are dotted paths of the answer.
+
+    verdicts       judges headline numbers that need more than a limit, by path
+    conclusion     the answer in words
+    remarks        how well results are known, by path
+    losses         powers that a load spectrum averages
+    scuffing       the temperatures that a load spectrum compares unless it names limits
+    of_the_film    outputs that need the thermal film, beside those with `thermal_ehl` in their path; None: no film
+    from_file      what a request takes from a REXS file; None: files make no such request
+    to_file        results that go back into a REXS file
+    """
+
+    verdicts: Callable[[Any], dict[str, Verdict]] = _nothing
+    conclusion: Callable[[Any], str] = _silence
+    remarks: Callable[[Any], dict[str, str]] = _nothing
+    losses: tuple[str, ...] = ()
+    scuffing: ScuffingPaths | None = None
+    of_the_film: frozenset[str] | None = None
+    from_file: FromFile | None = None
+    to_file: tuple[FileResult, ...] = ()
+
+
+class Cost(NamedTuple):
+    """Estimated time of a calculation on one core [s], and the request field on which this time depends."""
+
+    seconds: float
+    field: str
+
+
+@dataclass(frozen=True, slots=True)
+class Calculation:
+    """One endpoint of a model, with its solver, its figures and its words.
+
+    `cost` estimates the time of a request; it is None if no permissible request takes too long. `sized_flow` returns
+    the oil flow that the calculation sizes for its inputs [m^3/s], None if it sizes none.
+    """
+
+    path: str
+    title: str
+    summary: str
+    source: str
+    request: type[Request]
+    solve: Callable[[Any], Any]
+    response: type[Response]
+    kernels: Kernels
+    figures: tuple[Declaration, ...] = ()
+    words: Words = Words()
+    cost: Callable[[Any], Cost] | None = None
+    sized_flow: Callable[[Any], float | None] | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Card:
+    """A model: the name of its chapter, its endpoints, and the figure of the first one that the start page shows."""
+
+    name: str
+    endpoints: tuple[Calculation, ...]
+    start_figure: str = ""

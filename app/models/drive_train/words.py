@@ -1,0 +1,94 @@
+"""What is said of the answers about gear units: components, views, remarks, and what files take back."""
+
+from types import GenericAlias
+from typing import Any
+
+from app.models.card import FileResult, FromFile, ScuffingPaths, Words
+from app.models.coupling.words import ProportionsInForce
+from app.models.load_distribution.words import MESH_DERIVED
+from app.models.scuffing.words import LOAD_RESULTS, MICROPITTING_RESULTS, how_well_known
+from app.schema.answers import Response, component, group, named
+from app.schema.quantities import View
+from solvers.drive_train import derived, results, warm_up
+from solvers.drive_train.shafts import thrust_budget
+from solvers.heat_balance.warm_up import WarmUp
+from solvers.lubricants import OilInUse
+from solvers.scuffing.safety_results import BulkInForce
+
+named(
+    BearingLoad=results.BearingResult,
+    ShaftLine=results.ShaftCurves,
+    UnitCouplingState=results.CouplingResult,
+    BearingInForce=derived.DerivedBearing,
+    SectionInForce=derived.DerivedSection,
+    ShaftInForce=derived.DerivedShaft,
+    HeatInForce=derived.DerivedHeat,
+    TrainFlash=results.FlashPlaces,
+    TrainBalance=results.ForceBalance,
+    TrainConvergence=results.Convergence,
+    TrainMaps=results.FlankMaps,
+    OilInForce=OilInUse,
+    AlignmentAtTimes=warm_up.AlignmentOverTime,
+)
+component(derived.DerivedTemperatures, "TemperaturesInForce", BulkInForce)
+component(thrust_budget.Thrust, "ShaftThrust", use=View(limit=1.0))
+component(results.FaceLoad, "TrainLoad", face_load_factor=View(headline=2), contact_fraction=View(percent=True))
+component(
+    results.TrainSafety,
+    blok_feature=View(limit=1.0, bound="lower"),
+    blok_flank=View(limit=1.0, bound="lower"),
+    thermal_ehl_feature=View(limit=1.0, bound="lower"),
+    thermal_ehl_profile=View(limit=1.0, bound="lower"),
+    minimum=View(headline=1, limit=1.0, bound="lower", band="heat.band.safety"),
+)
+component(derived.DerivedCoupling, "CouplingInForce", fields={"coupling": ProportionsInForce})
+component(results.Parts, "MisalignmentParts", unit="um")
+
+# States other than the hot one have a summary without curves.
+SHAFT = group(results.ShaftResult, "ShaftSummary", without=("curves",))
+component(results.ShaftResult, "ShaftState", base=SHAFT)
+GAPS = group(results.Misalignment, "MisalignmentSummary", without=("curves",), shaft_slope=View(headline=3))
+component(results.Misalignment, "MisalignmentState", base=GAPS)
+STATE_DERIVED = group(derived.Derived, "StateDerived", only=("temperatures",))
+component(derived.Derived, "DriveTrainDerived", base=MESH_DERIVED)
+SUMMARY = group(
+    results.DriveTrainResult,
+    "TrainSummary",
+    without=("flank", "states", "heat"),
+    fields={"misalignment": GAPS, "shafts": GenericAlias(list, SHAFT), "derived": STATE_DERIVED},
+)
+component(results.States, "TrainStates", fields={"cold": SUMMARY | None})
+component(WarmUp, "WarmUpOfNodes", greatest_difference=View(headline=1))
+
+DRIVE_TRAIN = group(results.DriveTrainResult, "DriveTrainResponse", base=Response)
+WARM_UP = group(
+    warm_up.UnitWarmUp,
+    "WarmUpResponse",
+    base=Response,
+    least_safety=View(headline=2, limit=1.0, bound="lower", needs="temperatures.scuffing_c"),
+    largest_face_load_factor=View(headline=3),
+)
+
+
+def remarks(response: Any) -> dict[str, str]:
+    """Say how well the flank temperatures are known."""
+    return how_well_known(response, "heat.pinion.flank_c", "heat.wheel.flank_c")
+
+
+WORDS = Words(
+    remarks=remarks,
+    losses=("losses.coupling_w", "losses.pumping_w", "losses.mesh_w", "losses.bearings_w"),
+    scuffing=ScuffingPaths("flash.contact_max_c", "derived.temperatures.scuffing_c"),
+    of_the_film=frozenset({"safety.minimum"}),
+    from_file=FromFile(unknown=frozenset({"scuffing.application_factor"}), renamed={"load": "operation"}),
+    to_file=(
+        *LOAD_RESULTS,
+        FileResult("load.max_pressure_mpa", "maximum_hertzian_pressure", "MPa"),
+        FileResult("load.transmission_error_pp_um", "transmission_error_peak_to_peak", "mum"),
+        FileResult("safety.blok_flank", "scuffing_safety_blok_flank", "none"),
+        FileResult("safety.minimum", "scuffing_safety_minimum", "none"),
+        *MICROPITTING_RESULTS,
+        FileResult("losses.total_w", "total_power_loss", "W"),
+        FileResult("losses.efficiency", "efficiency", "none"),
+    ),
+)

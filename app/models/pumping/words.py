@@ -1,0 +1,146 @@
+"""What is said of the answers about pumping: components, views, verdicts and conclusions."""
+
+from typing import Any
+
+from app.figures.wording import UNCERTAIN, listed, number, percent
+from app.models.card import FromFile, Verdict, Words
+from app.schema.answers import Response, component, group, named
+from app.schema.quantities import View
+from solvers.pumping import lead_correction, pulsation, results
+from solvers.pumping.space import stroke
+
+named(
+    StrokeCurves=stroke.StrokeTable,
+    PumpingStroke=results.Stroke,
+    PumpingBalance=results.Balance,
+    PumpingProfile=results.FaceProfile,
+    PumpingEnd=results.EndOfFace,
+    PumpingChoking=results.Choking,
+    PumpingGeometry=results.MeshGeometry,
+    PumpingLeadCorrection=lead_correction.LeadCorrection,
+    PumpingPulsation=pulsation.Pulsation,
+    PumpingResolution=results.Resolution,
+    PumpingDerived=results.Derived,
+)
+component(results.MassFlow, "PumpingMassFlow", unit="g_per_s")
+component(results.GasField, "PumpingField", axial_mach=View(limit=1.0))
+component(
+    results.SpacesResult,
+    "PumpingSpaces",
+    peak_axial_mach=View(headline=2, limit=1.0, verdict=".axial_choked"),
+    peak_pressure_ratio=View(headline=3, verdict=".radial_choked"),
+    max_temperature_rise=View(headline=4),
+)
+component(results.Totals, "PumpingTotal", pumping_power=View(headline=1))
+component(results.ChokingCurves, exit_mach=View(limit=1.0), inflow_mach=View(limit=1.0))
+
+PUMPING = group(results.PumpingResult, "PumpingResponse", base=Response)
+CHOKING = group(
+    results.ChokingSpeeds,
+    "ChokingSpeedResponse",
+    base=Response,
+    radial_choking_speed=View(headline=1, limit="search_limit_rpm"),
+    axial_choking_speed=View(headline=2, limit="search_limit_rpm"),
+    inflow_choking_speed=View(headline=3, limit="search_limit_rpm"),
+)
+
+
+def verdicts(response: Any) -> dict[str, Verdict]:
+    """Judge choking, and mark the power and the temperature rise as doubtful if they are uncertain."""
+    spaces = _spaces(response).items()
+    judged = {f"{gear}_spaces.peak_axial_mach": _axial(gear, space, response) for gear, space in spaces}
+    judged |= {f"{gear}_spaces.peak_pressure_ratio": _radial(response) for gear, _ in spaces}
+    resolution = response.resolution
+    if resolution.pumping_power > UNCERTAIN:
+        judged["total.pumping_power_w"] = _as_known(Verdict("plain", ""), resolution.pumping_power, "the power")
+    if (resolution.temperature_rise or 0.0) > UNCERTAIN:
+        doubt = _as_known(Verdict("plain", ""), resolution.temperature_rise, "the temperature rise")
+        judged |= {f"{gear}_spaces.max_temperature_rise_k": doubt for gear in _spaces(response)}
+    return judged
+
+
+def _spaces(response: Any) -> dict[str, Any]:
+    """Return the results for the tooth spaces. The keys are "pinion" and "wheel"."""
+    spaces = {"pinion": response.pinion_spaces, "wheel": response.wheel_spaces}
+    return {gear: space for gear, space in spaces.items() if space is not None}
+
+
+def _axial(gear: str, space: Any, response: Any) -> Verdict:
+    """Say whether the outflow and the inflow at the ends of the tooth spaces are choked, by the refined verdict."""
+    choking = response.choking
+    words = (choking.outflow, choking.inflow)
+    text = f"outflow {choking.outflow} (Ma {number(choking.outflow_mach, '')}), inflow {choking.inflow}"
+    text += f" (Ma {number(choking.inflow_mach, '')}), with {choking.slices} slices"
+    if "choked" not in words and space.peak_axial_mach > 1.0:
+        text += f"; inside the spaces of the {gear} the gas is faster than sound"
+        return Verdict("near", text)
+    return Verdict("bad" if "choked" in words else "near" if "doubtful" in words else "good", text)
+
+
+def _radial(response: Any) -> Verdict:
+    """Say whether the flow in radial clearances is choked, by the refined verdict."""
+    word = response.choking.clearances
+    return Verdict({"choked": "bad", "doubtful": "near"}.get(word, "good"), f"radial clearances {word}")
+
+
+def _as_known(verdict: Verdict, uncertainty: float, name: str) -> Verdict:
+    """Return the verdict, marked as doubtful if the number behind the verdict is uncertain."""
+    if uncertainty <= UNCERTAIN:
+        return verdict
+    doubt = f"doubtful: {name} is uncertain by {percent(uncertainty)}"
+    return Verdict("near", f"{verdict.text}; {doubt}" if verdict.text else doubt)
+
+
+def conclusion(response: Any) -> str:
+    """Say which flows become sonic: outflow and inflow at the ends, and the flow through the radial clearances."""
+    choking = response.choking
+    numbers = {
+        "the outflow at the ends": (choking.outflow, _mach(choking.outflow_mach, choking.outflow_uncertainty)),
+        "the inflow at the ends": (choking.inflow, _mach(choking.inflow_mach, choking.inflow_uncertainty)),
+        "the flow through the radial clearances": (choking.clearances, ""),
+    }
+    told = {
+        word: [f"{flow}{text}" for flow, (found, text) in numbers.items() if found == word]
+        for word in ("choked", "doubtful", "not choked")
+    }
+    if told["choked"]:
+        first = f"The mesh is choked: {listed(told['choked'])}"
+        rest = [f"doubtful: {listed(told['doubtful'])}"] if told["doubtful"] else []
+        rest += [f"not choked: {listed(told['not choked'])}"] if told["not choked"] else []
+        return "; ".join([first, *rest]) + "."
+    if told["doubtful"]:
+        return f"It is doubtful whether the mesh is choked, with {choking.slices} slices: {listed(told['doubtful'])}."
+    return f"The mesh is not choked: {listed(told['not choked'])} stay below the speed of sound."
+
+
+def _mach(mach: float, uncertainty: float) -> str:
+    return f" (Ma {number(mach, '')} ± {percent(uncertainty)})"
+
+
+def choking_conclusion(response: Any) -> str:
+    """Say above which pinion speeds the mesh is choked."""
+    speeds = {
+        "ends (outflow)": response.axial_choking_speed_rpm,
+        "ends (inflow)": response.inflow_choking_speed_rpm,
+        "radial clearances": response.radial_choking_speed_rpm,
+    }
+    sonic = [f"at the {place} from {number(speed, '1/min')}" for place, speed in speeds.items() if speed is not None]
+    never = [
+        f"not at the {place} up to {number(response.inputs['search_limit_rpm'], '1/min')}"
+        for place, speed in speeds.items()
+        if speed is None
+    ]
+    return f"The flow becomes sonic {listed([*sonic, *never])} of the pinion."
+
+
+WORDS = Words(
+    verdicts=verdicts,
+    conclusion=conclusion,
+    losses=("total.pumping_power_w",),
+    from_file=FromFile(
+        frozenset({"gears"}),
+        unknown=frozenset({"gears.hand"}),
+        renamed={"load.pinion_speed_rpm": "operation.pinion_speed_rpm"},
+    ),
+)
+CHOKING_WORDS = Words(conclusion=choking_conclusion)

@@ -1,0 +1,142 @@
+"""What is said of the answers about scuffing: components, views, remarks, and what files take back."""
+
+from typing import Any
+
+from app.models.card import FileResult, FromFile, ScuffingPaths, Words
+from app.models.load_distribution.words import LOAD_DISTRIBUTION, MESH, NOT_OF_A_MESH, SCUFFING_DERIVED
+from app.schema.answers import Response, component, group, named
+from app.schema.quantities import View
+from solvers.heat_balance import results as heat
+from solvers.heat_balance.notices import KNOWN_WITHIN
+from solvers.lubricants import OilInUse
+from solvers.scuffing import safety_results as results
+from solvers.scuffing.micropitting import results as film_results
+
+FILM_SAFETY = View(limit=1.0, bound="lower")
+
+named(
+    MicropittingTestFilm=film_results.FilmOfTest,
+    MicropittingResult=film_results.Micropitting,
+    FlankWear=film_results.Wear,
+    GearHeat=heat.GearTemperatures,
+    BearingHeatBalance=heat.BearingHeat,
+    FlowOfHeat=heat.HeatFlow,
+    HeatSuppliedRemoved=heat.Balance,
+    BulkByStandards=heat.BulkEstimates,
+    BandOfHeat=heat.HeatBand,
+    HeatBalanceResult=heat.Heat,
+    FlashTemperature=results.Flash,
+)
+component(film_results.LocalPoint, "LocalFilmPoint", safety=FILM_SAFETY)
+component(
+    film_results.LocalFilm,
+    safety=View(limit=1.0, bound="lower", needs="micropitting.failure_load_stage", verdict=".verdict"),
+)
+component(film_results.StandardPoint, "StandardFilmPoint", safety=FILM_SAFETY)
+component(film_results.StandardFilm, safety=FILM_SAFETY)
+component(
+    results.ContactTemperature,
+    "ContactTemperatureResult",
+    blok_max=View(headline=2, limit="safety.scuffing_c", bound="upper"),
+    thermal_ehl_max=View(limit="safety.scuffing_c", bound="upper"),
+)
+component(
+    results.Film,
+    "ThinnestFilm",
+    thickness_ratio=View(headline=3, limit=1.0, bound="lower", verdict=".thickness_regime"),
+)
+component(
+    results.Safety,
+    "ScuffingSafety",
+    blok_factor=View(
+        headline=1,
+        limit=1.0,
+        bound="lower",
+        needs="temperatures.scuffing_c",
+        verdict=".verdict",
+        band="heat.band.safety",
+    ),
+    feature_line_factor=View(limit=1.0, bound="lower"),
+    thermal_ehl_factor=View(limit=1.0, bound="lower"),
+)
+component(
+    results.ScuffingPath,
+    "ScuffingPathCurves",
+    results.ThermalPath,
+    thickness_ratio=View(limit=1.0, bound="lower"),
+)
+HEATED_FLANK = group(results.HeatedFlank, "HeatedFlankFields")
+DERIVED = group(results.ScuffingDerived, "ScuffingOilDerived", OilInUse, results.BulkInForce, base=SCUFFING_DERIVED)
+
+SCUFFING = group(
+    results.Scuffing,
+    "ScuffingResponse",
+    base=LOAD_DISTRIBUTION,
+    fields={"flank": HEATED_FLANK | None, "derived": DERIVED},
+)
+
+NOT_VALIDATED = "not_validated"
+KNOWN = f"known to about ±{KNOWN_WITHIN:g} K"
+
+
+def how_well_known(response: Response, *paths: str) -> dict[str, str]:
+    """Return the remark that the temperatures at the `paths` are uncertain, unless a gear temperature was measured."""
+    return dict.fromkeys(paths, KNOWN) if NOT_VALIDATED in {notice.code for notice in response.warnings} else {}
+
+
+def remarks(response: Any) -> dict[str, str]:
+    """Say how well the bulk temperature is known."""
+    return how_well_known(response, "contact_temperature.bulk_c")
+
+
+LOAD_RESULTS = (
+    FileResult("load.face_load_factor", "face_load_factor_contact_stress", "none"),
+    FileResult("load.max_line_load_n_per_mm", "maximum_line_load", "N / mm"),
+)
+MICROPITTING_RESULTS = (
+    FileResult("micropitting.permissible_ratio", "permissible_specific_film_thickness_micropitting", "none"),
+    FileResult("micropitting.local.least_ratio", "minimum_specific_film_thickness_micropitting", "none"),
+    FileResult("micropitting.local.safety", "micropitting_safety", "none"),
+    FileResult("micropitting.local.verdict", "micropitting_risk", "none"),
+    FileResult("micropitting.standard.safety", "micropitting_safety_method_b", "none"),
+    FileResult("wear.pinion_max_um_per_million", "maximum_wear_pinion_per_million_revolutions", "mum"),
+    FileResult("wear.wheel_max_um_per_million", "maximum_wear_wheel_per_million_revolutions", "mum"),
+)
+"""Results about micropitting.
+
+These results need the failure load stage of a micropitting test. REXS has no attribute for this load stage, so the user
+enters the load stage on the page of the calculation.
+"""
+
+WORDS = Words(
+    remarks=remarks,
+    losses=("friction_loss.power_w",),
+    scuffing=ScuffingPaths("contact_temperature.blok_max_c", "safety.scuffing_c"),
+    of_the_film=frozenset({"film.min_at_psi", "film.thickness_ratio", "unsolved_points"}),
+    from_file=FromFile(
+        MESH | {"temperatures", "lubricant"},
+        unknown=NOT_OF_A_MESH,
+        renamed={"scuffing.application_factor": "load.application_factor"},
+    ),
+    to_file=(
+        *LOAD_RESULTS,
+        FileResult("load.contact_fraction", "contact_pattern_fraction", "none"),
+        FileResult("pressure.max_mpa", "maximum_hertzian_pressure", "MPa"),
+        FileResult("transmission_error.peak_to_peak_um", "transmission_error_peak_to_peak", "mum"),
+        FileResult("friction_loss.coefficient", "mean_coefficient_of_friction", "none"),
+        FileResult("friction_loss.power_w", "mesh_power_loss", "W"),
+        FileResult("flash.blok_max_k", "maximum_flash_temperature_blok", "K"),
+        FileResult("flash.thermal_ehl_max_k", "maximum_flash_temperature_thermal_ehl", "K"),
+        FileResult("contact_temperature.bulk_c", "bulk_temperature", "C"),
+        FileResult("contact_temperature.blok_max_c", "maximum_contact_temperature_blok", "C"),
+        FileResult("contact_temperature.thermal_ehl_max_c", "maximum_contact_temperature_thermal_ehl", "C"),
+        FileResult("film.dowson_higginson_min_um", "minimum_film_thickness_dowson_higginson", "mum"),
+        FileResult("film.thermal_ehl_min_um", "minimum_film_thickness_thermal_ehl", "mum"),
+        FileResult("film.thickness_ratio", "specific_film_thickness", "none"),
+        FileResult("safety.scuffing_c", "scuffing_temperature", "C"),
+        FileResult("safety.blok_factor", "scuffing_safety_blok", "none"),
+        FileResult("safety.thermal_ehl_factor", "scuffing_safety_thermal_ehl", "none"),
+        FileResult("safety.verdict", "scuffing_risk", "none"),
+        *MICROPITTING_RESULTS,
+    ),
+)
