@@ -13,8 +13,8 @@ from pathlib import Path
 PACKAGE = Path(__file__).resolve().parent
 NO_CALCULATION = "published"
 """Name of the package with published numbers for comparison. This package does not affect results."""
-DECLARE = frozenset({"quantity", "Quantity", "described"})
-LABELS = frozenset({"title", "symbol", "source", "text", "default_text", "assumed", "index"})
+DECLARE = frozenset({"quantity", "Quantity", "described", "computed", "record"})
+LABELS = frozenset({"title", "symbol", "source", "text", "default_text", "assumed", "index", "equation"})
 """Names of the keyword arguments of a declaration that are only text and do not affect results.
 
 All positional arguments of a declaration are also only text. The digest leaves out all these arguments.

@@ -150,15 +150,17 @@ class Lubricant:
 class OilInUse:
     """The properties of a lubricant that a result reports."""
 
-    viscosity: float = quantity("oil viscosity used", "η_0", unit="pa_s", text="at the reference temperature")
-    reference_temperature: float = quantity("oil reference temperature used", "θ_0", unit="c")
-    pressure_viscosity: float = quantity("pressure-viscosity coefficient used", "α", unit="per_gpa")
-    temperature_viscosity: float = quantity("temperature-viscosity coefficient used", "β", unit="per_k")
-    density: float = quantity("oil density used", "ρ_0", unit="kg_per_m3")
-    specific_heat: float = quantity("oil specific heat used", "c_oil", unit="j_per_kg_k")
-    thermal_conductivity: float = quantity("oil thermal conductivity used", "λ_oil", unit="w_per_m_k")
+    viscosity: float = quantity(
+        "oil viscosity used", "η_0", unit="pa_s", text="at the reference temperature", equation="R3"
+    )
+    reference_temperature: float = quantity("oil reference temperature used", "θ_0", unit="c", equation="practice#oils")
+    pressure_viscosity: float = quantity("pressure-viscosity coefficient used", "α", unit="per_gpa", equation="R4")
+    temperature_viscosity: float = quantity("temperature-viscosity coefficient used", "β", unit="per_k", equation="R4")
+    density: float = quantity("oil density used", "ρ_0", unit="kg_per_m3", equation="R3")
+    specific_heat: float = quantity("oil specific heat used", "c_oil", unit="j_per_kg_k", equation="R4")
+    thermal_conductivity: float = quantity("oil thermal conductivity used", "λ_oil", unit="w_per_m_k", equation="R4")
     viscosity_index: float | None = quantity(
-        "viscosity index used", "VI", "ASTM D2270", text="null without grade or data sheet"
+        "viscosity index used", "VI", "ASTM D2270", text="null without grade or data sheet", equation="R2"
     )
 
 

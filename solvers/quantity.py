@@ -10,7 +10,7 @@ in which the quantity is shown (here mm).
 
 import re
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, field, fields, is_dataclass
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from functools import cache, partial
 from inspect import cleandoc, formatannotation
 from math import pi
@@ -20,7 +20,7 @@ import numpy as np
 
 Detail = Literal["summary", "curves", "fields"]
 T = TypeVar("T")
-_KEY, _TEXT = "quantity", "text"
+_KEY, _TEXT, _PLACE = "quantity", "text", "_equation"
 _LEFT_OUT_OF_TYPES = re.compile(r"\b(?:[a-z_]\w*\.)+|(?<=ndarray)\[.*?\]\]|^'|'$")  # modules, element types, quotes
 
 
@@ -138,6 +138,9 @@ class Quantity:
         meaning.
     gaps : bool
         Whether NaN in an array marks a point without a value.
+    equation : str, optional
+        Place in the manual that says how the value is computed: the number of an equation, such as "D15", or a
+        section of a chapter, such as "drive-train#shafts". By default, that of the dataclass.
     """
 
     title: str
@@ -163,6 +166,7 @@ class Quantity:
     axis: str | tuple[str, str] | None = None
     index: str | None = None
     gaps: bool = False
+    equation: str | None = None
 
     @property
     def bounds(self) -> dict[str, float]:
@@ -219,18 +223,23 @@ def computed(title: str, symbol: str | None = None, source: str | None = None, *
 @overload
 def record(cls: type[T], /) -> type[T]: ...
 @overload
-def record(*, kw_only: bool = False, slots: bool = True) -> Callable[[type[T]], type[T]]: ...
+def record(
+    *, kw_only: bool = False, slots: bool = True, equation: str | None = None
+) -> Callable[[type[T]], type[T]]: ...
 @dataclass_transform(frozen_default=True, field_specifiers=(quantity, described, field))
-def record(cls: Any = None, /, *, kw_only: bool = False, slots: bool = True) -> Any:
+def record(cls: Any = None, /, *, kw_only: bool = False, slots: bool = True, equation: str | None = None) -> Any:
     """Make a frozen dataclass whose fields may be declared by `quantity`.
 
     The `repr` of the dataclass shows the values with their units. The docstring of the dataclass gets numpydoc's
-    sections on the fields. A dataclass that uses `cached_property` must have `slots=False`.
+    sections on the fields. A dataclass that uses `cached_property` must have `slots=False`. `equation` is the place in
+    the manual of all quantities that name none.
     """
 
     def make(kind: Any) -> Any:
         if "__repr__" not in vars(kind):
             kind.__repr__ = _summary
+        if equation:
+            setattr(kind, _PLACE, equation)
         data: Any = dataclass(frozen=True, slots=slots, kw_only=kw_only, repr=False)(kind)
         data.__doc__ = _Docstring(data.__doc__)
         return data
@@ -241,13 +250,16 @@ def record(cls: Any = None, /, *, kw_only: bool = False, slots: bool = True) -> 
 @cache
 def quantities(kind: Any) -> dict[str, Quantity]:
     """Return the declarations of a dataclass by name: first the fields in their order, then the computed values."""
+    place = getattr(kind, _PLACE, None)
     declared = {item.name: item.metadata[_KEY] for item in fields(kind) if _KEY in item.metadata}
     for base in reversed(kind.__mro__):
         for name, member in vars(base).items():
             function = _function_of(member)
             if hasattr(function, _KEY):
                 declared[name] = getattr(function, _KEY)
-    return declared
+    if place is None:
+        return declared
+    return {name: own if own.equation else replace(own, equation=place) for name, own in declared.items()}
 
 
 def type_of(kind: Any, name: str) -> Any:

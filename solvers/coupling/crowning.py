@@ -34,15 +34,17 @@ from solvers.quantity import quantity, record
 from solvers.sources import PAHL
 
 
-@record
+@record(equation="C13")
 class RecommendedPoint:
     """Results of the recommended coupling at one end of the misalignment range."""
 
     contact_overlap: float = quantity("contact surface overlap", "Pu", PAHL)
     load_capacity_coefficient: float = quantity("load capacity coefficient", "Tr", PAHL)
-    friction_coefficient: float = quantity("coefficient of friction in use", "μ")
-    axial_thrust: float = quantity("axial thrust", "F_ax", unit="n", text="axial thrust at the axial velocity given")
-    sliding_velocity: float = quantity("largest sliding velocity", "v_G,max", unit="m_per_s")
+    friction_coefficient: float = quantity("coefficient of friction in use", "μ", equation="C18")
+    axial_thrust: float = quantity(
+        "axial thrust", "F_ax", unit="n", text="axial thrust at the axial velocity given", equation="C19"
+    )
+    sliding_velocity: float = quantity("largest sliding velocity", "v_G,max", unit="m_per_s", equation="C2")
 
 
 @record
@@ -62,7 +64,7 @@ class CrowningScan:
     feasible: tuple[bool, ...] = quantity("feasible", text="whether every constraint is met", axis="crowning_ratio")
 
 
-@record
+@record(equation="C32")
 class Recommendation:
     """The crowning ratio with the largest load capacity of all ratios that meet every constraint.
 

@@ -23,7 +23,7 @@ STEEL = 206e9  # Pa, Young's modulus for which ISO 6336-1 states the tooth stiff
 STEEL_TOOTH_STIFFNESS = 280e6  # N/m, of a pair of steel teeth
 
 
-@record
+@record(equation="coupling#geometry")
 class Coupling:
     """A gear coupling: a hub with crowned teeth in a sleeve with straight internal teeth.
 
@@ -85,6 +85,7 @@ class Coupling:
         text="tangential stiffness of one tooth pair",
         default_text="280 N/µm times E/206 GPa",
         assumed="order of magnitude of ISO 6336-1: 14 N/(mm µm) over 20 mm of effective width, times E/206 GPa",
+        equation="C7",
     )
     sleeve_mass: float = quantity(
         "sleeve mass per mesh",

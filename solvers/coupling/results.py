@@ -13,13 +13,18 @@ from solvers.quantity import quantity, record
 from solvers.sources import PAHL
 
 
-@record
+@record(equation="C1")
 class Geometry:
     """Radii of the crowned tooth [m]."""
 
-    pitch_radius: float = quantity("pitch radius", "r_o", PAHL, unit="mm")
+    pitch_radius: float = quantity("pitch radius", "r_o", PAHL, unit="mm", equation="coupling#geometry")
     crowning_radius: float = quantity(
-        "crowning radius", "r_b", PAHL, unit="mm", text="radius of the cutter centre's path"
+        "crowning radius",
+        "r_b",
+        PAHL,
+        unit="mm",
+        text="radius of the cutter centre's path",
+        equation="coupling#geometry",
     )
     tangential_flank_radius: float = quantity("flank radius in the tangential plane", "R_t", unit="mm")
     normal_flank_radius: float = quantity("flank radius in the plane of action", "R_e", f"{PAHL}, Fig. 8", unit="mm")
@@ -54,19 +59,24 @@ class KinematicCurves:
     )
 
 
-@record
+@record(equation="C2")
 class Kinematics:
     """Largest velocities [m/s] and displacements [m] of a tooth over a revolution, all positive."""
 
     max_sliding_velocity: float = quantity("largest sliding velocity", "v_G,max", f"{PAHL}, Fig. 6", unit="m_per_s")
     max_contact_travel: float = quantity(
-        "largest contact travel", "s_1,max", f"{PAHL}, Fig. 7", unit="mm", text="largest travel from the tooth's middle"
+        "largest contact travel",
+        "s_1,max",
+        f"{PAHL}, Fig. 7",
+        unit="mm",
+        text="largest travel from the tooth's middle",
+        equation="C3",
     )
     max_hydrodynamic_velocity: float = quantity(
-        "largest hydrodynamically effective velocity", "v_H,max", f"{PAHL}, Fig. 6", unit="m_per_s"
+        "largest hydrodynamically effective velocity", "v_H,max", f"{PAHL}, Fig. 6", unit="m_per_s", equation="C6"
     )
     tangential_displacement_peak_to_peak: float = quantity(
-        "peak-to-peak tangential displacement", "f_t,pp", f"{PAHL}, Fig. 6", unit="um"
+        "peak-to-peak tangential displacement", "f_t,pp", f"{PAHL}, Fig. 6", unit="um", equation="C5"
     )
     curves: KinematicCurves = quantity("motion over one revolution", detail="curves")
 
@@ -81,7 +91,7 @@ class LoadCurves:
     )
 
 
-@record
+@record(equation="C7")
 class LoadDistribution:
     """Load distribution of the mesh in which the hub drives the sleeve, at the requested rotor angle.
 
@@ -92,7 +102,7 @@ class LoadDistribution:
     the number of iterations for a floating sleeve, and 0 for a centred sleeve.
     """
 
-    mean_tangential_force: float = quantity("mean tangential force", "F_m", unit="n", text="of a tooth")
+    mean_tangential_force: float = quantity("mean tangential force", "F_m", unit="n", text="of a tooth", equation="C10")
     max_tangential_force: float = quantity("largest tangential force", "F_max", f"{PAHL}, Fig. 3", unit="n")
     min_tangential_force: float = quantity("smallest tangential force", "F_min", unit="n")
     max_normal_force: float = quantity(
@@ -103,19 +113,21 @@ class LoadDistribution:
     )
     loaded_teeth: int = quantity("loaded teeth", "z_L", text="teeth that carry")
     rotation: float = quantity(
-        "rotation of hub against sleeve", "ψ", unit="um", text="rotation, an arc at the pitch radius"
+        "rotation of hub against sleeve", "ψ", unit="um", text="rotation, an arc at the pitch radius", equation="C8"
     )
     unloading_misalignment: float = quantity(
-        "unloading misalignment", "δ_L", unit="deg", text="misalignment beyond which some tooth is free"
+        "unloading misalignment", "δ_L", unit="deg", text="misalignment beyond which some tooth is free", equation="C10"
     )
     sleeve_displacement: tuple[float, float] = quantity(
-        "sleeve displacement", "e", unit="um", text="displacement (x, y) of the sleeve", index="x, y"
+        "sleeve displacement", "e", unit="um", text="displacement (x, y) of the sleeve", index="x, y", equation="C9"
     )
-    iterations: int = quantity("iterations of the sleeve's balance", text="of a floating sleeve; 0 for a centred one")
+    iterations: int = quantity(
+        "iterations of the sleeve's balance", text="of a floating sleeve; 0 for a centred one", equation="C9"
+    )
     curves: LoadCurves = quantity("load tooth by tooth", detail="curves")
 
 
-@record
+@record(equation="coupling#friction")
 class Regime:
     """An area of the paper's map of friction conditions (Fig. 9), and the friction band of this area.
 
@@ -135,7 +147,7 @@ class Regime:
     )
 
 
-@record
+@record(equation="C12")
 class Lubrication:
     """Contact and film of the most heavily loaded tooth while one tooth is in the tilt position.
 
@@ -153,18 +165,22 @@ class Lubrication:
     )
     hertz_half_width: float = quantity("half width of the Hertzian contact", "a_HZ", f"{PAHL}, Fig. 7", unit="mm")
     hertz_pressure: float = quantity("largest Hertzian pressure", "p_H", unit="mpa")
-    contact_overlap: float | None = quantity("contact surface overlap", "Pu", f"{PAHL}, Fig. 7")
+    contact_overlap: float | None = quantity("contact surface overlap", "Pu", f"{PAHL}, Fig. 7", equation="C13")
     inlet_ratio: float | None = quantity(
-        "inlet ratio", "B", f"{PAHL}, Fig. 8", text="inlet length over its scale; null: infinite"
+        "inlet ratio", "B", f"{PAHL}, Fig. 8", text="inlet length over its scale; null: infinite", equation="C14"
     )
-    inlet_factor: float = quantity("inlet factor", "f(B)", f"{PAHL}, Fig. 8", text="effect of the shortened inlet")
-    hydrodynamic_capacity: float = quantity("hydrodynamic load capacity", "F_HD", f"{PAHL}, Fig. 8", unit="n")
-    load_capacity_coefficient: float | None = quantity("load capacity coefficient", "Tr", PAHL)
+    inlet_factor: float = quantity(
+        "inlet factor", "f(B)", f"{PAHL}, Fig. 8", text="effect of the shortened inlet", equation="C16"
+    )
+    hydrodynamic_capacity: float = quantity(
+        "hydrodynamic load capacity", "F_HD", f"{PAHL}, Fig. 8", unit="n", equation="C14"
+    )
+    load_capacity_coefficient: float | None = quantity("load capacity coefficient", "Tr", PAHL, equation="C13")
     regime: Regime = quantity("friction regime")
-    friction_coefficient: float = quantity("coefficient of friction in use", "μ")
+    friction_coefficient: float = quantity("coefficient of friction in use", "μ", equation="C18")
 
 
-@record
+@record(equation="C22")
 class SelfInducedThrust:
     """Thrust that two meshes cause without axial motion, as a mean over one tooth pitch.
 
@@ -189,16 +205,18 @@ class SelfInducedThrust:
         f"{PAHL}, Fig. 13",
         unit="n",
         text="one tooth pair per mesh; zero with an angle (M)",
+        equation="C23",
     )
     uniform_load_force: float = quantity(
         "self-induced thrust under uniform load",
         "F_ax,u",
         unit="n",
         text="closed form, all teeth loaded alike; zero with an angle (M)",
+        equation="C24",
     )
 
 
-@record
+@record(equation="C19")
 class AxialThrust:
     """Mean axial thrust over one tooth pitch or, if there are pitch deviations, over one revolution.
 
@@ -220,13 +238,27 @@ class AxialThrust:
         text="thrust of one mesh, or with two meshes force on one shaft, positive: pulled together",
     )
     coaxial_limit: float = quantity(
-        "thrust limit of coaxial shafts", "F_ax,max", PAHL, unit="n", text="thrust of sliding coaxial shafts"
+        "thrust limit of coaxial shafts",
+        "F_ax,max",
+        PAHL,
+        unit="n",
+        text="thrust of sliding coaxial shafts",
+        equation="C20",
     )
     breakaway_force: float = quantity(
-        "breakaway thrust", "F_ax,s", PAHL, unit="n", text="thrust at which coaxial shafts start to slide"
+        "breakaway thrust",
+        "F_ax,s",
+        PAHL,
+        unit="n",
+        text="thrust at which coaxial shafts start to slide",
+        equation="C20",
     )
     design_force: float = quantity(
-        "thrust to be held", "F_ax,d", unit="n", text="what a thrust bearing must hold: force or breakaway, the larger"
+        "thrust to be held",
+        "F_ax,d",
+        unit="n",
+        text="what a thrust bearing must hold: force or breakaway, the larger",
+        equation="C20",
     )
     customary_force: float | None = quantity(
         "customary thrust",
@@ -234,12 +266,17 @@ class AxialThrust:
         "API 671/617 practice, quoted, not verified against the standard",
         unit="n",
         text="0.25 T/D; null without a shaft diameter",
+        equation="C20",
     )
     fraction_of_limit: float | None = quantity(
-        "thrust over its limit", "F_ax/F_ax,max", text="force over coaxial limit"
+        "thrust over its limit", "F_ax/F_ax,max", text="force over coaxial limit", equation="C20"
     )
     uniform_load_force: float = quantity(
-        "thrust under uniform load", "F_ax,u", unit="n", text="closed form of one mesh, all teeth loaded alike"
+        "thrust under uniform load",
+        "F_ax,u",
+        unit="n",
+        text="closed form of one mesh, all teeth loaded alike",
+        equation="C21",
     )
     lower_bound: float = quantity(
         "lower bound of the thrust", "F_ax,lo", unit="n", text="least thrust where friction at rest is indeterminate"
@@ -255,7 +292,7 @@ class AxialThrust:
     )
 
 
-@record
+@record(equation="C25")
 class Losses:
     """Friction power [W] and moments [N m] of one mesh, as means over one tooth pitch.
 
@@ -267,14 +304,14 @@ class Losses:
     friction_power: float = quantity("friction power", "P_f", unit="w")
     friction_moment: float = quantity("friction moment", "M_f", unit="n_m")
     contact_shift_moment: float = quantity(
-        "contact shift moment", "M_s", unit="n_m", text="moment of the shifted contacts"
+        "contact shift moment", "M_s", unit="n_m", text="moment of the shifted contacts", equation="C27"
     )
     hub_bending_moment: float = quantity(
-        "bending moment on the hub", "M_b", unit="n_m", text="bending moment on the hub, resultant"
+        "bending moment on the hub", "M_b", unit="n_m", text="bending moment on the hub, resultant", equation="C28"
     )
 
 
-@record
+@record(equation="C31")
 class Limits:
     """Design limits of a coupling, and its linear stiffness with every tooth loaded.
 
@@ -289,6 +326,7 @@ class Limits:
         "Tribology Handbook B4.6",
         unit="m_per_s",
         text="largest lasting sliding velocity",
+        equation="C29",
     )
     allowable_misalignment: float | None = quantity(
         "permissible misalignment",
@@ -296,9 +334,10 @@ class Limits:
         "Tribology Handbook B4.6",
         unit="deg",
         text="misalignment at that sliding velocity; null where none reaches it",
+        equation="C29",
     )
     sleeve_centring_torque: float = quantity(
-        "sleeve centring torque", "T_c", unit="n_m", text="torque that keeps a heavy sleeve centred"
+        "sleeve centring torque", "T_c", unit="n_m", text="torque that keeps a heavy sleeve centred", equation="C30"
     )
     torsional_stiffness: float = quantity(
         "torsional stiffness", "c_φ", unit="n_m_per_rad", text="of one mesh, all teeth loaded"
@@ -308,7 +347,7 @@ class Limits:
     )
 
 
-@record
+@record(equation="R3")
 class Derived:
     """Values used in the calculation, including the values for omitted inputs.
 
@@ -319,7 +358,7 @@ class Derived:
     coupling: Coupling
     viscosity: float = quantity("oil viscosity used", "η", unit="pa_s", text="at the teeth")
     viscosity_index: float | None = quantity(
-        "viscosity index used", "VI", "ASTM D2270", text="null without grade or data sheet"
+        "viscosity index used", "VI", "ASTM D2270", text="null without grade or data sheet", equation="R2"
     )
 
     @classmethod
@@ -352,7 +391,7 @@ class Orbit:
     y: FloatArray = quantity("sleeve displacement along the tilt axis", "e_y", unit="um", axis="rotor_angle")
 
 
-@record
+@record(equation="C11")
 class InertiaForce:
     """Inertia force of the part of the sleeve's mass that is assigned to one mesh, at the rotor angles of the orbit.
 
@@ -394,7 +433,7 @@ class InertiaForce:
     )
 
 
-@record
+@record(equation="C11")
 class OrbitResult:
     """Results for one revolution of a floating sleeve under its own inertia.
 

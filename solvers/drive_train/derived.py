@@ -11,7 +11,7 @@ from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety_results import BulkInForce
 
 
-@record
+@record(equation="D4")
 class DerivedBearing:
     """Clearance and oil viscosity used for a plain bearing; both are None for other bearings."""
 
@@ -19,14 +19,14 @@ class DerivedBearing:
     viscosity: float | None = quantity("oil viscosity used in the bearing", "η_B", unit="pa_s")
 
 
-@record
+@record(equation="D16")
 class DerivedSection:
     """The outer diameter used for a section."""
 
     outer_diameter: float = quantity("section outer diameter used", "d_o", unit="mm")
 
 
-@record
+@record(equation="drive-train#shafts")
 class DerivedShaft:
     """The values used for a shaft."""
 
@@ -35,19 +35,19 @@ class DerivedShaft:
     bearings: tuple[DerivedBearing, ...] = quantity("bearings used")
 
 
-@record
+@record(equation="R3")
 class DerivedCoupling:
     """The values that the calculation used for a coupling: proportions, oil viscosity and axial tooth stiffness."""
 
     coupling: Coupling = quantity("proportions used")
     viscosity: float = quantity("oil viscosity used", "η", unit="pa_s", text="at the teeth")
     viscosity_index: float | None = quantity(
-        "viscosity index used", "VI", "ASTM D2270", text="null without grade or data sheet"
+        "viscosity index used", "VI", "ASTM D2270", text="null without grade or data sheet", equation="R2"
     )
-    axial_tooth_stiffness: float = quantity("axial tooth stiffness used", "c_a", unit="n_per_um")
+    axial_tooth_stiffness: float = quantity("axial tooth stiffness used", "c_a", unit="n_per_um", equation="D8")
 
 
-@record
+@record(equation="D10")
 class DerivedHeat:
     """Wall response and tooth temperature used for each gear; `inputs.Heat` explains the wall response."""
 
@@ -57,7 +57,7 @@ class DerivedHeat:
     wheel_bulk: float = quantity("tooth temperature of the wheel used", "θ_M2", unit="c")
 
 
-@record
+@record(equation="D15")
 class DerivedTemperatures:
     """The temperatures and the lubricant factor used for the contact."""
 
@@ -69,14 +69,18 @@ class DerivedTemperatures:
         text="`bulk_method` says how it came about; null without an oil",
     )
     scuffing: float | None = quantity(
-        "scuffing temperature used", "θ_S", unit="c", text="given or by a test; null with neither"
+        "scuffing temperature used", "θ_S", unit="c", text="given or by a test; null with neither", equation="R9"
     )
     lubricant_factor: float | None = quantity(
-        "lubricant factor of the scuffing test used", "X_L", TR_13989, text="null without a scuffing test"
+        "lubricant factor of the scuffing test used",
+        "X_L",
+        TR_13989,
+        text="null without a scuffing test",
+        equation="R9",
     )
 
 
-@record
+@record(equation="Xue 1")
 class Derived:
     """The values that the calculation used for inputs that were left open."""
 

@@ -19,7 +19,7 @@ from solvers.scuffing.results import LoadDistribution, Place
 from solvers.sources import ISO_6336, REYNOLDS
 
 
-@record
+@record(equation="D3")
 class Parts:
     """Contributions of single causes to the slope of the gap over the face.
 
@@ -71,7 +71,7 @@ class GapCurves:
     )
 
 
-@record
+@record(equation="D13")
 class Misalignment:
     """Slope, crown and range of the gap due to shafts and heat, and the modifications that compensate this gap.
 
@@ -88,9 +88,9 @@ class Misalignment:
     thermal_slope: float = quantity("slope by heat", "f_th", unit="um")
     thermal_crown: float = quantity("crown by heat", "C_th", unit="um")
     thermal_range: float = quantity("range of the gap by heat", "R_th", unit="um")
-    thermal_profile_slope: float = quantity("profile slope by heat", "f_Hα,th", unit="um")
+    thermal_profile_slope: float = quantity("profile slope by heat", "f_Hα,th", unit="um", equation="D10")
     base_pitch: float = quantity(
-        "base pitch deviation by heat", "Δp_bt", unit="um", text="pinion's growth over the wheel's"
+        "base pitch deviation by heat", "Δp_bt", unit="um", text="pinion's growth over the wheel's", equation="D10"
     )
     total_slope: float = quantity("slope by shafts and heat", "f_Hβ", unit="um")
     recommended_helix_slope: float = quantity(
@@ -103,7 +103,7 @@ class Misalignment:
     curves: GapCurves = quantity("gap over the face", detail="curves")
 
 
-@record
+@record(equation="L17")
 class FaceLoad:
     """The load over the face, and the peak-to-peak transmission error.
 
@@ -115,25 +115,39 @@ class FaceLoad:
         "face load factor", "K_Hβ", ISO_6336, text="largest over mean load across the face"
     )
     face_load_at: float | None = quantity(
-        "place of the largest face load", "y/b", text="fraction of the face; null without load"
+        "place of the largest face load",
+        "y/b",
+        text="fraction of the face; null without load",
+        equation="drive-train#results",
     )
-    max_line_load: float = quantity("largest line load", "w_max", unit="n_per_mm")
+    max_line_load: float = quantity("largest line load", "w_max", unit="n_per_mm", equation="Xue 9")
     max_pressure: float | None = quantity(
-        "largest Hertzian pressure", "p_H", unit="mpa", text="null where the loaded path reaches a base circle"
+        "largest Hertzian pressure",
+        "p_H",
+        unit="mpa",
+        text="null where the loaded path reaches a base circle",
+        equation="Xue 14",
     )
-    contact_fraction: float = quantity("contact pattern", text="share of the flank under load")
-    transmission_error_pp: float = quantity("peak-to-peak transmission error", "PPTE", unit="um")
+    contact_fraction: float = quantity("contact pattern", text="share of the flank under load", equation="Xue 9")
+    transmission_error_pp: float = quantity("peak-to-peak transmission error", "PPTE", unit="um", equation="L18")
 
 
-@record
+@record(equation="D5")
 class BearingResult:
     """Reaction and displacement of a bearing; the other results exist for plain bearings only."""
 
-    reaction: Vector2 = quantity("bearing reaction", "F_B", unit="n", text="on the shaft", index="X, Y")
-    displacement: Vector2 = quantity(
-        "displacement in the bearing", "u_B", unit="um", text="of the shaft, without the bore's offset", index="X, Y"
+    reaction: Vector2 = quantity(
+        "bearing reaction", "F_B", unit="n", text="on the shaft", index="X, Y", equation="drive-train#bearings"
     )
-    eccentricity_ratio: float | None = quantity("eccentricity ratio", "ε", REYNOLDS)
+    displacement: Vector2 = quantity(
+        "displacement in the bearing",
+        "u_B",
+        unit="um",
+        text="of the shaft, without the bore's offset",
+        index="X, Y",
+        equation="drive-train#bearings",
+    )
+    eccentricity_ratio: float | None = quantity("eccentricity ratio", "ε", REYNOLDS, equation="D4")
     attitude: float | None = quantity(
         "attitude angle", "φ_B", REYNOLDS, unit="deg", text="of displacement against load"
     )
@@ -163,7 +177,7 @@ class ShaftResult:
     curves: ShaftCurves = quantity("displaced axis", detail="curves")
 
 
-@record
+@record(equation="D6")
 class CouplingResult:
     """Tilts and friction of both hubs of a coupling, and the loads of the coupling on the unit's hub.
 
@@ -172,32 +186,44 @@ class CouplingResult:
     """
 
     tilt: Vector2 = quantity(
-        "tilt of the hubs", "δ", unit="mrad", text="of hub against sleeve", index="the unit's hub, the machine's"
+        "tilt of the hubs",
+        "δ",
+        unit="mrad",
+        text="of hub against sleeve",
+        index="the unit's hub, the machine's",
+        equation="D12",
     )
     stuck: tuple[bool, bool] = quantity(
-        "sticking hubs", text="whether no tooth of a hub slides", index="the unit's hub, the machine's"
+        "sticking hubs", text="whether no tooth of a hub slides", index="the unit's hub, the machine's", equation="D8"
     )
     friction_share: Vector2 = quantity(
         "share of full sliding",
         "M_H/M_f",
         text="friction moment of a hub over that of full sliding",
         index="the unit's hub, the machine's",
+        equation="D9",
     )
     moment: Vector2 = quantity("moment on the unit's hub", "M_H", unit="n_m", index="X, Y")
     force: Vector2 = quantity(
         "force on the unit's hub", "F_H", unit="n", text="with half the sleeve's weight", index="X, Y"
     )
     friction_coefficient: float = quantity(
-        "coefficient of friction of the coupling", "μ", text="the smaller of both hubs"
+        "coefficient of friction of the coupling", "μ", text="the smaller of both hubs", equation="C18"
     )
     thrust: float = quantity(
-        "thrust of the coupling on its shaft", "τ F_max", unit="n", text="the stated share of the limit, along +Z"
+        "thrust of the coupling on its shaft",
+        "τ F_max",
+        unit="n",
+        text="the stated share of the limit, along +Z",
+        equation="D7",
     )
-    thrust_limit: float = quantity("limit of the axial friction", "F_max", unit="n")
-    friction_power: float = quantity("friction power of the coupling", "P_C", unit="w", text="of both hubs")
+    thrust_limit: float = quantity("limit of the axial friction", "F_max", unit="n", equation="C20")
+    friction_power: float = quantity(
+        "friction power of the coupling", "P_C", unit="w", text="of both hubs", equation="D9"
+    )
 
 
-@record
+@record(equation="D15")
 class FlashPlaces:
     """Largest flash temperatures by Blok's formula; these values are None if the contact reaches a base circle.
 
@@ -219,10 +245,11 @@ class FlashPlaces:
         "μ_mB",
         TR_13989,
         text="given, or by the oil (ISO/TR 13989-1); null if neither it nor an oil is given",
+        equation="R5",
     )
 
 
-@record
+@record(equation="D15")
 class TrainSafety:
     """Safety factors by Blok's method and by thermal EHL, on the feature line and over the flank.
 
@@ -244,7 +271,7 @@ class TrainSafety:
     )
 
 
-@record
+@record(equation="drive-train#results")
 class TrainLosses:
     """Power losses of the unit, their total and the efficiency.
 
@@ -253,22 +280,30 @@ class TrainLosses:
     contains the loss due to acceleration of the oil, the loss due to windage, and the loss in other parts.
     """
 
-    coupling: float = quantity("loss of the couplings", "P_C", unit="w")
-    pumping: float = quantity("loss by pumping", "P_P", unit="w", text="of air and mist between the teeth")
-    mesh: float | None = quantity("loss of the mesh", "P_V", unit="w", text="null without a coefficient of friction")
-    bearings: float = quantity("loss of the plain bearings", "P_B", unit="w")
-    oil_acceleration: float | None = quantity(
-        "loss by acceleration of the oil", "P_acc", unit="w", text="null without a heat balance"
+    coupling: float = quantity("loss of the couplings", "P_C", unit="w", equation="D9")
+    pumping: float = quantity(
+        "loss by pumping", "P_P", unit="w", text="of air and mist between the teeth", equation="P9"
     )
-    windage: float | None = quantity("loss by windage", "P_wind", unit="w", text="null without a heat balance")
+    mesh: float | None = quantity("loss of the mesh", "P_V", unit="w", text="null without a coefficient of friction")
+    bearings: float = quantity("loss of the plain bearings", "P_B", unit="w", equation="D5")
+    oil_acceleration: float | None = quantity(
+        "loss by acceleration of the oil", "P_acc", unit="w", text="null without a heat balance", equation="H9"
+    )
+    windage: float | None = quantity(
+        "loss by windage", "P_wind", unit="w", text="null without a heat balance", equation="H8"
+    )
     other: float | None = quantity(
-        "loss in seals and other parts", "P_other", unit="w", text="as given for the heat balance; null without one"
+        "loss in seals and other parts",
+        "P_other",
+        unit="w",
+        text="as given for the heat balance; null without one",
+        equation="heat-balance#losses",
     )
     total: float | None = quantity("total loss", "P_L", unit="w", text="null without the loss of the mesh")
     efficiency: float | None = quantity("efficiency", "η", text="null without power, or where the losses exceed it")
 
 
-@record
+@record(equation="drive-train#bearings")
 class ForceBalance:
     """Largest unbalanced force on a shaft divided by F_bt, and largest unbalanced moment divided by F_bt b.
 
@@ -281,7 +316,7 @@ class ForceBalance:
     )
 
 
-@record
+@record(equation="D11")
 class Convergence:
     """Number of iterations on the gap, and the last residual."""
 

@@ -76,7 +76,7 @@ class AlignmentOverTime:
     total_slope: FloatArray = quantity("slope by shafts and heat over time", "f_Hβ", unit="um", axis="time")
 
 
-@record(kw_only=True)
+@record(kw_only=True, equation="H24")
 class UnitWarmUp:
     """A warm-up: temperatures, alignment at five points in time, and the heat balance at the end.
 
@@ -98,6 +98,7 @@ class UnitWarmUp:
         OWN,
         unit="um",
         text="gears against the casing; null without a casing in the balance",
+        equation="H22",
     )
     alignment: AlignmentOverTime = quantity("alignment over time", detail="curves")
     heat: Heat = quantity("heat balance", text="of the running unit, in which the warm-up ends")

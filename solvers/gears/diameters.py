@@ -9,10 +9,18 @@ from solvers.sources import ISO_21771
 class Diameters:
     """Tip and root diameters [m]."""
 
-    pinion_tip_diameter: float = quantity("tip diameter of the pinion", "d_a1", ISO_21771, unit="mm")
-    wheel_tip_diameter: float = quantity("tip diameter of the wheel", "d_a2", ISO_21771, unit="mm")
-    pinion_root_diameter: float = quantity("root diameter of the pinion", "d_f1", ISO_21771, unit="mm")
-    wheel_root_diameter: float = quantity("root diameter of the wheel", "d_f2", ISO_21771, unit="mm")
+    pinion_tip_diameter: float = quantity(
+        "tip diameter of the pinion", "d_a1", ISO_21771, unit="mm", equation="load-distribution#geometry"
+    )
+    wheel_tip_diameter: float = quantity(
+        "tip diameter of the wheel", "d_a2", ISO_21771, unit="mm", equation="load-distribution#geometry"
+    )
+    pinion_root_diameter: float = quantity(
+        "root diameter of the pinion", "d_f1", ISO_21771, unit="mm", equation="load-distribution#geometry"
+    )
+    wheel_root_diameter: float = quantity(
+        "root diameter of the wheel", "d_f2", ISO_21771, unit="mm", equation="load-distribution#geometry"
+    )
 
 
 def diameters_of(pair: GearPair) -> dict[str, float]:

@@ -7,37 +7,44 @@ from solvers.sources import OWN
 Range = tuple[float, float]
 
 
-@record
+@record(equation="H18")
 class GearTemperatures:
     """Temperatures of a gear, frictional heat that enters the gear, and cooling by the oil film."""
 
     flank: float = quantity("flank temperature", "θ_F", OWN, unit="c", text="loaded flank")
     body: float = quantity("body temperature", "θ_B", OWN, unit="c", text="unloaded flank, rim and shaft")
-    friction: float = quantity("frictional heat of the gear", "P_F", unit="w")
+    friction: float = quantity("frictional heat of the gear", "P_F", unit="w", equation="H7")
     oil_conductance: float = quantity(
-        "cooling by the oil", "G", OWN, unit="w_per_k", text="conductance of the film on both flanks"
+        "cooling by the oil", "G", OWN, unit="w_per_k", text="conductance of the film on both flanks", equation="H5"
     )
     flooded_conductance: float = quantity(
-        "cooling by flooded flanks", "G_fl", OWN, unit="w_per_k", text="the same of a film that more oil does not help"
+        "cooling by flooded flanks",
+        "G_fl",
+        OWN,
+        unit="w_per_k",
+        text="the same of a film that more oil does not help",
+        equation="H5",
     )
-    film: float = quantity("film laid in a turn", "h_0", OWN, unit="um")
+    film: float = quantity("film laid in a turn", "h_0", OWN, unit="um", equation="H4")
     turn_film: float = quantity(
-        "film that a turn can use", "h_turn", OWN, unit="um", text="carries 0.9 of the flooded heat"
+        "film that a turn can use", "h_turn", OWN, unit="um", text="carries 0.9 of the flooded heat", equation="H5"
     )
-    oil_limited: bool = quantity("cooling limited by the oil", text="all oil reaches the temperature of the flank")
+    oil_limited: bool = quantity(
+        "cooling limited by the oil", text="all oil reaches the temperature of the flank", equation="H5"
+    )
 
 
-@record
+@record(equation="H18")
 class BearingHeat:
     """Temperatures, oil flow and friction of a plain bearing."""
 
     outlet: float = quantity("oil that leaves the bearing", "θ_J", unit="c")
-    film: float = quantity("film temperature of the bearing", "θ_f", unit="c")
-    oil_flow: float = quantity("oil flow of the bearing", "Q_B", unit="l_per_min")
-    friction_power: float = quantity("friction power in the balance", "P_B", unit="w")
+    film: float = quantity("film temperature of the bearing", "θ_f", unit="c", equation="H12")
+    oil_flow: float = quantity("oil flow of the bearing", "Q_B", unit="l_per_min", equation="H12")
+    friction_power: float = quantity("friction power in the balance", "P_B", unit="w", equation="D5")
 
 
-@record
+@record(equation="heat-balance#network")
 class HeatFlow:
     """Heat flow between two nodes of the network."""
 
@@ -47,30 +54,36 @@ class HeatFlow:
     power: float = quantity("heat flow", "P", unit="w")
 
 
-@record
+@record(equation="H6")
 class HeatLosses:
     """Losses that the oil and the surroundings take up [W]."""
 
     mesh: float = quantity("mesh loss", "P_mesh", unit="w", text="at the temperature of the flanks")
-    pumping: float = quantity("pumping loss", "P_pump", unit="w")
+    pumping: float = quantity("pumping loss", "P_pump", unit="w", equation="heat-balance#losses")
     oil_acceleration: float = quantity(
         "acceleration of the oil",
         "P_acc",
         OWN,
         unit="w",
         text="what the teeth give to the oil that hits them; negative if the jets are faster and drive them",
+        equation="H9",
     )
-    windage: float = quantity("windage", "P_wind", unit="w")
-    bearings: float = quantity("bearing losses", "P_B", unit="w")
-    couplings: float = quantity("coupling losses", "P_C", unit="w", text="outside of the balance")
-    other: float = quantity("other losses", "P_other", unit="w")
+    windage: float = quantity("windage", "P_wind", unit="w", equation="H8")
+    bearings: float = quantity("bearing losses", "P_B", unit="w", equation="D5")
+    couplings: float = quantity("coupling losses", "P_C", unit="w", text="outside of the balance", equation="D9")
+    other: float = quantity("other losses", "P_other", unit="w", equation="heat-balance#losses")
     jets: float = quantity(
-        "power of the oil jets", "P_jet", OWN, unit="w", text="supplied by the oil pump; no loss of the gears"
+        "power of the oil jets",
+        "P_jet",
+        OWN,
+        unit="w",
+        text="supplied by the oil pump; no loss of the gears",
+        equation="H9",
     )
-    total: float = quantity("total heat of the losses", "P_V", unit="w")
+    total: float = quantity("total heat of the losses", "P_V", unit="w", equation="heat-balance#losses")
 
 
-@record
+@record(equation="H17")
 class Balance:
     """Supplied heat, removed heat, and the difference of the two divided by the supplied heat."""
 
@@ -79,15 +92,17 @@ class Balance:
     error: float = quantity("error of the balance", text="difference over the heat supplied")
 
 
-@record
+@record(equation="R8")
 class BulkEstimates:
     """Bulk temperatures [K] by formulas of standards, for comparison."""
 
     iso_tr_13989_bulk: float | None = quantity("bulk by ISO/TR 13989-1", "θ_M", unit="c", default=None)
-    iso_ts_6336_22_bulk: float | None = quantity("bulk by ISO/TS 6336-22", "θ_M", unit="c", default=None)
+    iso_ts_6336_22_bulk: float | None = quantity(
+        "bulk by ISO/TS 6336-22", "θ_M", unit="c", default=None, equation="H13"
+    )
 
 
-@record
+@record(equation="H21")
 class HeatBand:
     """Ranges of temperatures and safety factor that follow from the uncertain cooling alone."""
 
@@ -105,31 +120,31 @@ class HeatBand:
     )
 
 
-@record
+@record(equation="H11")
 class CoolingInForce:
     """Values that the calculation used for the optional inputs of the cooling."""
 
     gear_flow: float = quantity("oil flow to the gears used", "Q_g", unit="l_per_min")
-    wetting_share: float = quantity("wetting share used", "w")
-    rewetting_share: float = quantity("rewetting share used", "w_r")
-    fling_off_factor: float = quantity("fling-off factor used", "f")
-    windage: float = quantity("windage used", "P_wind", unit="w")
-    other: float = quantity("other losses used", "P_other", unit="w")
+    wetting_share: float = quantity("wetting share used", "w", equation="H4")
+    rewetting_share: float = quantity("rewetting share used", "w_r", equation="heat-balance#network")
+    fling_off_factor: float = quantity("fling-off factor used", "f", equation="H5")
+    windage: float = quantity("windage used", "P_wind", unit="w", equation="H8")
+    other: float = quantity("other losses used", "P_other", unit="w", equation="heat-balance#losses")
 
 
-@record
+@record(equation="H18")
 class Heat:
     """Temperatures, losses and heat flows of a gear pair or gear unit."""
 
     pinion: GearTemperatures = quantity("pinion in the balance")
     wheel: GearTemperatures = quantity("wheel in the balance")
     mist: float = quantity("oil mist", "θ_mist", OWN, unit="c")
-    drain: float = quantity("drained oil", "θ_D", OWN, unit="c", text="all oil that leaves, mixed")
+    drain: float = quantity("drained oil", "θ_D", OWN, unit="c", text="all oil that leaves, mixed", equation="H20")
     casing: float | None = quantity("casing temperature", "θ_C", unit="c")
-    gear_flow: float = quantity("oil flow to the gears in use", "Q_g", unit="l_per_min")
-    total_flow: float = quantity("oil flow of all parts", "Q", unit="l_per_min")
-    wetting_share: float = quantity("wetting share in use", "w", OWN)
-    friction_to_pinion: float = quantity("share of the friction for the pinion", "φ", OWN)
+    gear_flow: float = quantity("oil flow to the gears in use", "Q_g", unit="l_per_min", equation="H11")
+    total_flow: float = quantity("oil flow of all parts", "Q", unit="l_per_min", equation="H12")
+    wetting_share: float = quantity("wetting share in use", "w", OWN, equation="H4")
+    friction_to_pinion: float = quantity("share of the friction for the pinion", "φ", OWN, equation="H7")
     bearings: tuple[BearingHeat, ...] = quantity("bearings in the balance")
     flows: tuple[HeatFlow, ...] = quantity("flows of heat", detail="curves")
     losses: HeatLosses = quantity("losses in the balance")
@@ -139,7 +154,11 @@ class Heat:
         "band of the balance", text="what the uncertain cooling leaves open; null if all of it is given"
     )
     wheel_deviation: float | None = quantity(
-        "deviation of the wheel", "Δθ_2", unit="k", text="calculated less measured, where both gears are measured"
+        "deviation of the wheel",
+        "Δθ_2",
+        unit="k",
+        text="calculated less measured, where both gears are measured",
+        equation="H19",
     )
     drain_deviation: float | None = quantity(
         "deviation of the drain",
@@ -147,6 +166,7 @@ class Heat:
         unit="k",
         default=None,
         text="calculated less measured; above 0 where the calculated losses alone warm the drain further",
+        equation="H20",
     )
     backlash_loss: float | None = quantity(
         "loss of backlash by heat",
@@ -155,6 +175,7 @@ class Heat:
         unit="um",
         default=None,
         text="gears against the casing; null without its temperature",
+        equation="H22",
     )
     flank_cases: tuple[tuple[float, float], ...] = described(
         "Temperatures of both flanks in the nominal case and at the corners of the band [K].",

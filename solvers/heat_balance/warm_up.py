@@ -33,7 +33,7 @@ class WarmUpCurves:
     )
 
 
-@record
+@record(equation="H24")
 class WarmUp:
     """Results of a warm-up: final temperatures, times to 95 % of the temperature change, and curves over time.
 

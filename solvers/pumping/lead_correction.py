@@ -39,7 +39,7 @@ class LeadCurves:
     correction: FloatArray = quantity("lead correction", "C", unit="um", text="what undoes the growth", axis="position")
 
 
-@record
+@record(equation="P12")
 class LeadCorrection:
     """Range of the thermal growth, and slope and crown of the correction [m].
 

@@ -9,7 +9,7 @@ from solvers.quantity import quantity, record
 HARMONICS = 8  # number of harmonics, chosen
 
 
-@record
+@record(equation="P13")
 class Pulsation:
     """Amplitudes of the mass flow at both ends of the face: one value per multiple of the meshing frequency."""
 

@@ -14,23 +14,31 @@ from solvers.sources import MILIAN
 ChokingWord = Literal["choked", "not choked", "doubtful"]
 
 
-@record
+@record(equation="L1")
 class MeshGeometry(Diameters):
     """Geometry of the gear pair at its centre distance; lengths [m], angles [rad]."""
 
     centre_distance: float = quantity("centre distance", "a", unit="mm", text="centre distance in use")
-    backlash_free_centre_distance: float = quantity("centre distance without backlash", "a_0", unit="mm")
+    backlash_free_centre_distance: float = quantity(
+        "centre distance without backlash", "a_0", unit="mm", equation="pumping#geometry-of-the-tooth-space"
+    )
     working_pressure_angle: float = quantity(
         "working transverse pressure angle", "α_wt", unit="deg", text="working transverse pressure angle"
     )
-    transverse_contact_ratio: float = quantity("transverse contact ratio", "ε_α")
+    transverse_contact_ratio: float = quantity("transverse contact ratio", "ε_α", equation="Xue 2")
     normal_backlash: float = quantity(
-        "total normal backlash", "j_bn", unit="um", text="normal backlash of centre distance and thinned tooth"
+        "total normal backlash",
+        "j_bn",
+        unit="um",
+        text="normal backlash of centre distance and thinned tooth",
+        equation="P1",
     )
-    undercut: bool = quantity("undercut", text="whether either gear is undercut")
+    undercut: bool = quantity(
+        "undercut", text="whether either gear is undercut", equation="pumping#geometry-of-the-tooth-space"
+    )
 
 
-@record
+@record(equation="P2")
 class Stroke:
     """One stroke of a tooth space.
 
@@ -42,12 +50,12 @@ class Stroke:
     contact_start: float = quantity("start of contact", "φ_A", unit="deg", text="the driving flanks touch")
     contact_end: float = quantity("end of contact", "φ_E", unit="deg", text="the driving flanks part")
     end: float = quantity("end of the stroke", "φ_e", unit="deg", text="the mating tooth has left")
-    max_area: float = quantity("largest area of the tooth space", "S_A,max", unit="mm2")
-    min_area: float = quantity("smallest area of the tooth space", "S_A,min", unit="mm2")
+    max_area: float = quantity("largest area of the tooth space", "S_A,max", unit="mm2", equation="Milian 5")
+    min_area: float = quantity("smallest area of the tooth space", "S_A,min", unit="mm2", equation="Milian 5")
     curves: StrokeTable = quantity("curves of the stroke", detail="curves")
 
 
-@record
+@record(equation="pumping#mass-flows")
 class MassFlow:
     """Mass flow out of the tooth spaces of one gear [kg/s].
 
@@ -80,16 +88,18 @@ class MassFlow:
         "Δm",
         unit="g_per_s",
         text="of front and rear, small differences of out and in: three times what half the resolution changes",
+        equation="P15",
     )
     radial_uncertainty: float = quantity(
         "uncertainty of the radial mass flow",
         "Δm_rad",
         unit="g_per_s",
         text="three times what half the resolution changes of it",
+        equation="P15",
     )
 
 
-@record
+@record(equation="pumping#numerics")
 class Balance:
     """Relative errors of the balances; `energy_error` is None if the model does not conserve energy."""
 
@@ -99,7 +109,7 @@ class Balance:
     )
 
 
-@record
+@record(equation="P15")
 class Resolution:
     """Relative uncertainties of the results due to the resolution.
 
@@ -170,7 +180,7 @@ class GasField:
     )
 
 
-@record
+@record(equation="P11")
 class EndOfFace:
     """Largest Mach numbers that the pressures ask for at an end of the face; above 1, the flow there is choked.
 
@@ -184,7 +194,7 @@ class EndOfFace:
     inflow_choked: bool = quantity("choking of the inflow", text="whether the air that fills the spaces becomes sonic")
 
 
-@record
+@record(equation="P9")
 class SpacesResult:
     """Results of the spaces of one gear: power [W], work per space and stroke [J], mass flow [kg/s], temperatures [K].
 
@@ -194,26 +204,28 @@ class SpacesResult:
 
     stroke: Stroke = quantity("stroke", text="one stroke")
     peak_pressure_ratio: float = quantity(
-        "peak pressure ratio", "p_max/p_e", text="largest pressure over ambient pressure"
+        "peak pressure ratio", "p_max/p_e", text="largest pressure over ambient pressure", equation="P6"
     )
     min_pressure_ratio: float = quantity(
-        "least pressure ratio", "p_min/p_e", text="smallest pressure over ambient pressure"
+        "least pressure ratio", "p_min/p_e", text="smallest pressure over ambient pressure", equation="P6"
     )
-    peak_axial_mach: float = quantity("largest axial Mach number", "Ma_max", text="of slices and ends")
-    peak_axial_velocity: float = quantity("largest axial velocity", "U_max", MILIAN, unit="m_per_s")
+    peak_axial_mach: float = quantity("largest axial Mach number", "Ma_max", text="of slices and ends", equation="P8")
+    peak_axial_velocity: float = quantity("largest axial velocity", "U_max", MILIAN, unit="m_per_s", equation="P8")
     radial_choked: bool = quantity(
-        "radial choking", None, f"{MILIAN}, Eq. 7", text="whether radial clearances become sonic"
+        "radial choking", None, f"{MILIAN}, Eq. 7", text="whether radial clearances become sonic", equation="P11"
     )
     axial_choked: bool = quantity(
-        "axial choking", None, f"{MILIAN}, Eq. 7", text="whether the outflow at an end becomes sonic"
+        "axial choking", None, f"{MILIAN}, Eq. 7", text="whether the outflow at an end becomes sonic", equation="P11"
     )
-    inflow_choked: bool = quantity("choking of the inflow", text="whether the inflow at an end becomes sonic")
+    inflow_choked: bool = quantity(
+        "choking of the inflow", text="whether the inflow at an end becomes sonic", equation="P11"
+    )
     front_end: EndOfFace = quantity("front end", text="the end that meshes first")
     rear_end: EndOfFace = quantity("rear end", text="the end that meshes last")
     max_temperature_rise: float | None = quantity(
-        "largest temperature rise", "Δθ_0,max", MILIAN, unit="k", text="largest of the profile"
+        "largest temperature rise", "Δθ_0,max", MILIAN, unit="k", text="largest of the profile", equation="P10"
     )
-    hottest_position: float | None = quantity("hottest position", "z_max", MILIAN, unit="mm")
+    hottest_position: float | None = quantity("hottest position", "z_max", MILIAN, unit="mm", equation="P10")
     pumping_power: float = quantity("pumping power of these spaces", "P", unit="w")
     work_per_space: float = quantity("work per space", "W", unit="j", text="work on the gas of one space in a stroke")
     mass_flow: MassFlow = quantity("mass flow", unit="g_per_s", text="net mass flow out")
@@ -223,7 +235,7 @@ class SpacesResult:
     steps: int
 
 
-@record
+@record(equation="P9")
 class Totals:
     """Power of the selected tooth spaces [W], meshing frequency [Hz], and axial speed of the meshing point [m/s].
 
@@ -244,7 +256,7 @@ class Totals:
     )
 
 
-@record
+@record(equation="pumping#numerics")
 class Derived:
     """Values derived from the inputs.
 
@@ -253,14 +265,17 @@ class Derived:
     the given tip radius, `rack_tip_radius` is the largest radius for which both racks have room.
     """
 
-    centre_distance: float = quantity("centre distance used", "a", unit="mm")
+    centre_distance: float = quantity("centre distance used", "a", unit="mm", equation="L1")
     slices: int = quantity("slices asked for", "N_0", text="slices or pockets, those of the grooves included")
     rack_tip_radius: float = quantity(
-        "root fillet radius used", "ρ_fP*", text="in normal modules, as far as both racks have room for it"
+        "root fillet radius used",
+        "ρ_fP*",
+        text="in normal modules, as far as both racks have room for it",
+        equation="pumping#geometry-of-the-tooth-space",
     )
 
 
-@record
+@record(equation="P11")
 class Choking:
     """Whether the flow becomes sonic, decided by refinement, over the spaces of all gears asked for.
 
@@ -276,11 +291,11 @@ class Choking:
     inflow_mach: float = quantity("Mach number of the inflow that decides", "Ma_in", text="above 1: choked")
     inflow_uncertainty: float = quantity("uncertainty of the inflow's Mach number", text="relative")
     slices: int = quantity(
-        "slices of the verdict", "N_v", text="as many as the verdict took; the numbers are of `slices`"
+        "slices of the verdict", "N_v", text="as many as the verdict took; the numbers are of `slices`", equation="P15"
     )
 
 
-@record
+@record(equation="pumping#numerics")
 class PumpingResult:
     """Results of a pumping calculation at one operating point.
 
@@ -327,7 +342,7 @@ class ChokingCurves:
     )
 
 
-@record
+@record(equation="P11")
 class ChokingSpeeds:
     """Lowest pinion speeds [rad/s] at which the flow becomes sonic; None if there is none up to the search limit."""
 

@@ -16,7 +16,7 @@ from solvers.scuffing.load_balance import LoadBalance
 from solvers.sources import ISO_6336, SCHLENK, XUE
 
 
-@record
+@record(equation="Xue 9")
 class Place:
     """A point of the flank.
 
@@ -29,7 +29,7 @@ class Place:
     face_fraction: float = quantity("face position", "η", text="fraction of the face from the end that meshes first")
 
 
-@record
+@record(equation="L1")
 class Geometry(Diameters):
     """Geometry of the mesh: lengths [m], angles [rad]; `undercut` is True if either gear is undercut."""
 
@@ -37,13 +37,15 @@ class Geometry(Diameters):
     working_pressure_angle: float = quantity(
         "working transverse pressure angle", "α_wt", unit="deg", text="working transverse pressure angle"
     )
-    base_helix_angle: float = quantity("base helix angle", "β_b", unit="deg")
-    transverse_base_pitch: float = quantity("transverse base pitch", "p_bt", f"{XUE}, Eq. 2", unit="mm")
-    path_of_contact: float = quantity("length of the path of contact", "g_α", unit="mm")
-    transverse_contact_ratio: float = quantity("transverse contact ratio", "ε_α", f"{XUE}, Eq. 2")
-    overlap_ratio: float = quantity("overlap ratio", "ε_β", f"{XUE}, Eq. 3")
-    total_contact_ratio: float = quantity("total contact ratio", "ε_γ", f"{XUE}, Table 1")
-    undercut: bool = quantity("undercut", text="whether either gear is undercut")
+    base_helix_angle: float = quantity("base helix angle", "β_b", unit="deg", equation="load-distribution#geometry")
+    transverse_base_pitch: float = quantity(
+        "transverse base pitch", "p_bt", f"{XUE}, Eq. 2", unit="mm", equation="load-distribution#geometry"
+    )
+    path_of_contact: float = quantity("length of the path of contact", "g_α", unit="mm", equation="L2")
+    transverse_contact_ratio: float = quantity("transverse contact ratio", "ε_α", f"{XUE}, Eq. 2", equation="Xue 2")
+    overlap_ratio: float = quantity("overlap ratio", "ε_β", f"{XUE}, Eq. 3", equation="Xue 3")
+    total_contact_ratio: float = quantity("total contact ratio", "ε_γ", f"{XUE}, Table 1", equation="Xue 3")
+    undercut: bool = quantity("undercut", text="whether either gear is undercut", equation="load-distribution#geometry")
 
 
 @record
@@ -62,7 +64,7 @@ class LengthCurves:
     )
 
 
-@record
+@record(equation="Xue 4")
 class ContactLines:
     """Shortest, longest and mean total length of the contact lines [m], computed in closed form."""
 
@@ -83,7 +85,7 @@ class StiffnessCurves:
     single: FloatArray = quantity("stiffness of one pair", "k", f"{XUE}, Eq. 7", unit="n_per_mm_um", axis="gamma")
 
 
-@record
+@record(equation="Xue 7")
 class Stiffness:
     """Stiffness per face width [Pa] of one pair of teeth and of the mesh.
 
@@ -106,10 +108,18 @@ class Stiffness:
     )
     recess: float = quantity("stiffness of one pair at E", "k_E", unit="n_per_mm_um")
     mean_mesh: float | None = quantity(
-        "mean mesh stiffness", "c_γ", unit="n_per_mm_um", text="mean of the loaded mesh; null without load"
+        "mean mesh stiffness",
+        "c_γ",
+        unit="n_per_mm_um",
+        text="mean of the loaded mesh; null without load",
+        equation="L15",
     )
-    standard_single: float = quantity("single stiffness by ISO 6336-1", "c'", ISO_6336, unit="n_per_mm_um")
-    standard_mesh: float = quantity("mesh stiffness by ISO 6336-1", "c_γα", ISO_6336, unit="n_per_mm_um")
+    standard_single: float = quantity(
+        "single stiffness by ISO 6336-1", "c'", ISO_6336, unit="n_per_mm_um", equation="L16"
+    )
+    standard_mesh: float = quantity(
+        "mesh stiffness by ISO 6336-1", "c_γα", ISO_6336, unit="n_per_mm_um", equation="L16"
+    )
     secant_load: float = quantity(
         "line load of the stiffnesses",
         "w_s",
@@ -140,7 +150,7 @@ class ErrorCurves:
     )
 
 
-@record
+@record(equation="L18")
 class TransmissionError:
     """Transmission error along the transverse line of action [m].
 
@@ -161,7 +171,7 @@ class TransmissionError:
     curves: ErrorCurves = quantity("transmission error over one base pitch", detail="curves")
 
 
-@record
+@record(equation="Xue 1")
 class LoadOnFlank:
     """Forces [N], torque [N m], largest line load [N/m] and its place, and loaded share of the contact length.
 
@@ -179,26 +189,32 @@ class LoadOnFlank:
     )
     normal_force: float = quantity("force in the balance", "F_bn", unit="n")
     max_line_load: float = quantity(
-        "largest line load", "w_max", f"{XUE}, Fig. 11", unit="n_per_mm", text="largest over all roll positions"
+        "largest line load",
+        "w_max",
+        f"{XUE}, Fig. 11",
+        unit="n_per_mm",
+        text="largest over all roll positions",
+        equation="Xue 9",
     )
     max_at: Place | None = quantity("place of the largest line load", text="where; null without load")
     contact_fraction: float = quantity(
-        "contact pattern", text="share of the flank under load, weighted by contact length"
+        "contact pattern", text="share of the flank under load, weighted by contact length", equation="Xue 9"
     )
     face_load_factor: float | None = quantity(
-        "face load factor", "K_Hβ", ISO_6336, text="largest over mean load across the face"
+        "face load factor", "K_Hβ", ISO_6336, text="largest over mean load across the face", equation="L17"
     )
-    balance_error: float = quantity("load balance error", text="force left over, relative")
+    balance_error: float = quantity("load balance error", text="force left over, relative", equation="Xue 11")
     pair_share: FloatArray | None = quantity(
         "load share of each line",
         "F_i/F",
         text="force share of each line over the roll positions",
         detail="fields",
         index="line, roll position",
+        equation="Xue 9",
     )
 
 
-@record
+@record(equation="Xue 14")
 class Pressure:
     """Largest Hertzian pressure [Pa] over all roll positions, and its place.
 
@@ -217,7 +233,7 @@ class Pressure:
     )
 
 
-@record
+@record(equation="L19")
 class FrictionLoss:
     """Mean coefficient of friction, loss factor H_V, friction power [W] and efficiency.
 
@@ -229,6 +245,7 @@ class FrictionLoss:
         "μ_m",
         SCHLENK,
         text="given, or by the oil (Schlenk); null if neither it nor an oil is given",
+        equation="R10",
     )
     loss_factor: float | None = quantity("tooth loss factor", "H_V", text="loss factor; null without load")
     power: float | None = quantity("friction power", "P_V", unit="w", text="null without a coefficient of friction")
@@ -354,7 +371,7 @@ class Flank:
     )
 
 
-@record
+@record(equation="Xue 1")
 class Derived:
     """Values that follow directly from the inputs: torque [N m], power [W], lengths [m].
 
@@ -363,12 +380,15 @@ class Derived:
 
     pinion_torque: float = quantity("pinion torque used", "T_1", unit="n_m")
     power: float = quantity("power used", "P", unit="kw")
-    centre_distance: float = quantity("centre distance used", "a", unit="mm")
-    tip_relief_length: float = quantity("tip relief length used", "L_Ca", unit="mm")
-    root_relief_length: float = quantity("root relief length used", "L_Cf", unit="mm")
-    end_relief_length: float = quantity("end relief length used", "L_Ce", unit="mm")
+    centre_distance: float = quantity("centre distance used", "a", unit="mm", equation="L1")
+    tip_relief_length: float = quantity("tip relief length used", "L_Ca", unit="mm", equation="L11")
+    root_relief_length: float = quantity("root relief length used", "L_Cf", unit="mm", equation="L11")
+    end_relief_length: float = quantity("end relief length used", "L_Ce", unit="mm", equation="L11")
     rack_tip_radius: float = quantity(
-        "root fillet radius used", "ρ_fP*", text="in normal modules, as far as both racks have room for it"
+        "root fillet radius used",
+        "ρ_fP*",
+        text="in normal modules, as far as both racks have room for it",
+        equation="load-distribution#geometry",
     )
 
 

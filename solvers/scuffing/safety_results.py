@@ -20,7 +20,7 @@ BulkRan = Literal["given", "estimated", "between", "heat_balance"]
 PointStatus = Literal["ok", "ok_with_warnings", "no_solution", "refused", "unloaded"]
 
 
-@record
+@record(equation="Xue 25")
 class Flash:
     """Largest flash temperatures [K] and their places.
 
@@ -38,7 +38,7 @@ class Flash:
         text="by Blok over the flank; null where a loaded point has none, as all do without a coefficient of friction",
     )
     blok_at_psi: float | None = quantity(
-        "place of the largest flash by Blok on the feature line", "Ψ_B", text="null without load there"
+        "place of the largest flash by Blok on the feature line", "Ψ_B", text="null without load there", equation="S1"
     )
     feature_line_max: float | None = quantity(
         "largest flash temperature by Blok on the feature line",
@@ -68,15 +68,17 @@ class Flash:
         unit="k",
         text="at the places of the flank that decide; null in closed form",
         default=None,
+        equation="Xue 16",
     )
     thermal_ehl_at_psi: float | None = quantity(
-        "place of the largest flash by thermal EHL on the feature line", "Ψ_fl", default=None
+        "place of the largest flash by thermal EHL on the feature line", "Ψ_fl", default=None, equation="S1"
     )
     thermal_ehl_at_profile: float | None = quantity(
         "profile position of the largest flash by thermal EHL",
         "ξ_fl",
         text="fraction of the path from A to E",
         default=None,
+        equation="Xue 16",
     )
     thermal_ehl_at_face: float | None = quantity(
         "face position of the largest flash by thermal EHL",
@@ -84,6 +86,7 @@ class Flash:
         unit="mm",
         text="from the end that meshes first",
         default=None,
+        equation="Xue 16",
     )
     friction_coefficient: float | None = quantity(
         "mean coefficient of friction of the flash temperature",
@@ -91,10 +94,11 @@ class Flash:
         TR_13989,
         text="Blok's; given, or by the oil (ISO/TR 13989-1); null if neither it nor an oil is given",
         default=None,
+        equation="R5",
     )
 
 
-@record
+@record(equation="H25")
 class BulkInForce:
     """How the bulk temperature came about: the method that ran, the temperatures it had, and the balance's share."""
 
@@ -108,6 +112,7 @@ class BulkInForce:
         TR_13989,
         unit="c",
         text="null where it is given, without an oil, or where the flash temperature has no mean",
+        equation="R8",
     )
     bulk_balance: float | None = quantity(
         "bulk temperature by the heat balance",
@@ -115,6 +120,7 @@ class BulkInForce:
         OWN,
         unit="c",
         text="mean of both flanks; null where no balance ran",
+        equation="H18",
     )
     balance_share: float | None = quantity(
         "share of the heat balance",
@@ -130,7 +136,7 @@ class BulkInForce:
         return self.bulk_estimate + self.balance_share * np.maximum(balance - self.bulk_estimate, 0.0)
 
 
-@record
+@record(equation="Xue 16")
 class ContactTemperature:
     """Bulk temperature t_M and largest contact temperature t_B = t_M + t_f [K] (Eq. 16).
 
@@ -144,6 +150,7 @@ class ContactTemperature:
         f"{XUE}, Eq. 16",
         unit="c",
         text="mean of both flanks; `derived.bulk_method` says how it came about",
+        equation="R8",
     )
     blok_max: float | None = quantity(
         "contact temperature by Blok",
@@ -161,7 +168,7 @@ class ContactTemperature:
     )
 
 
-@record
+@record(equation="Xue 27")
 class Film:
     """Thinnest film [m], its place and its ratio to the roughness.
 
@@ -184,7 +191,9 @@ class Film:
         text="over the flank",
         default=None,
     )
-    min_at_psi: float | None = quantity("place of the thinnest film on the feature line", "Ψ_h", default=None)
+    min_at_psi: float | None = quantity(
+        "place of the thinnest film on the feature line", "Ψ_h", default=None, equation="S1"
+    )
     min_at_profile: float | None = quantity(
         "profile position of the thinnest film", "ξ_h", text="fraction of the path from A to E", default=None
     )
@@ -197,6 +206,7 @@ class Film:
         f"{XUE}, Eq. 28",
         text="minimum film over the roughness of both flanks",
         default=None,
+        equation="Xue 28",
     )
     thickness_regime: Regime | None = quantity(
         "lubrication regime",
@@ -204,6 +214,7 @@ class Film:
         XUE,
         text="below 1 boundary, scuffing probable; to 4 mixed; above full film",
         default=None,
+        equation="Xue 28",
     )
     thermal_ehl_min: float | None = quantity(
         "thinnest film by thermal EHL",
@@ -211,10 +222,11 @@ class Film:
         unit="um",
         text="by the thermal EHL solution; null in closed form",
         default=None,
+        equation="scuffing#film",
     )
 
 
-@record
+@record(equation="Xue 26")
 class Safety:
     """Safety factors against scuffing (Eq. 26); a factor is None if the teeth are not hotter than the oil.
 
@@ -222,7 +234,9 @@ class Safety:
     heat balance states a band of this factor, `verdict` is the risk class for the smallest factor in the band.
     """
 
-    scuffing: float = quantity("scuffing temperature used", "θ_S", unit="c", text="given or by the scuffing test")
+    scuffing: float = quantity(
+        "scuffing temperature used", "θ_S", unit="c", text="given or by the scuffing test", equation="R9"
+    )
     blok_factor: float | None = quantity(
         "safety factor (flash temperature method)",
         "S_B",
@@ -252,7 +266,7 @@ class Safety:
     )
 
 
-@record
+@record(equation="R1")
 class ScuffingDerived:
     """Values of mesh, oil and cooling that follow from the inputs; `oil` is the oil at the bulk temperature.
 
@@ -266,10 +280,14 @@ class ScuffingDerived:
         "kinematic viscosity used at 100 °C", "ν_100", unit="mm2_per_s", text="null without grade or data sheet"
     )
     density_15: float | None = quantity(
-        "oil density used at 15 °C", "ρ_15", unit="kg_per_m3", text="null without grade or data sheet"
+        "oil density used at 15 °C", "ρ_15", unit="kg_per_m3", text="null without grade or data sheet", equation="R3"
     )
     lubricant_factor: float | None = quantity(
-        "lubricant factor of the scuffing test used", "X_L", TR_13989, text="null without a scuffing test"
+        "lubricant factor of the scuffing test used",
+        "X_L",
+        TR_13989,
+        text="null without a scuffing test",
+        equation="R9",
     )
     bulk: BulkInForce
     cooling: CoolingInForce | None = quantity("cooling used", default=None, text="null without a heat balance")
@@ -393,7 +411,7 @@ class HeatedFlank(Flank):
     )
 
 
-@record(kw_only=True)
+@record(kw_only=True, equation="scuffing#numerics")
 class Scuffing:
     """Results of a scuffing check, with the load distribution on which the check is based.
 

@@ -1,7 +1,6 @@
 """Every result names the place in the manual that says how the result is computed, and links to this place."""
 
 import re
-from importlib import import_module
 from pathlib import Path
 from random import Random
 
@@ -10,13 +9,12 @@ import pytest
 from app.calculations import CALCULATIONS, Calculation
 from app.examples import examples
 from app.manual import NAMES, chapters
-from app.manual.results import PLACES, place_of
+from app.manual.results import place_of
 from app.pages.cases import Asked
 from app.pages.manual import chapter_page, symbols_of
 from app.pages.query import pairs_of
 from app.pages.results import NOT_RESULTS
 from app.schema.fields import Leaf, leaves
-from solvers.quantity import quantities
 from tests.support.pages import html_of
 
 DRAWN = 10
@@ -31,15 +29,6 @@ def listed(calculation: Calculation) -> list[Leaf]:
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 def test_every_result_names_its_place_in_the_manual(calculation: Calculation) -> None:
     assert [leaf.path for leaf in listed(calculation) if place_of(leaf.declared) is None] == []
-
-
-def test_no_place_is_of_something_else() -> None:
-    """Every entry of `PLACES` names a dataclass of the solvers, and only fields that this dataclass declares."""
-    for name, places in PLACES.items():
-        module, _, kind = name.rpartition(".")
-        declared = quantities(getattr(import_module(f"solvers.{module}"), kind))
-        for each in places.split("; ")[1:]:
-            assert set(each.partition(": ")[0].split()) <= set(declared), name
 
 
 def test_every_place_is_on_its_page() -> None:

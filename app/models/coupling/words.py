@@ -51,7 +51,7 @@ component(crowning.CrowningScan, max_contact_overlap=View(limit=1.0))
 def _used(name: str, title: str) -> Output:
     """Declare which value the calculation used for the input `name` of a coupling."""
     declared = quantities(Coupling)[name]
-    return Output(title, declared.symbol, unit=declared.unit, origin=(Coupling, name))
+    return Output(title, declared.symbol, unit=declared.unit, equation=declared.equation, origin=(Coupling, name))
 
 
 class ProportionsInForce(Group):

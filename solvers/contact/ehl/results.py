@@ -13,7 +13,7 @@ Status = Literal["ok", "ok_with_warnings", "no_solution"]
 Stage = Literal["isothermal", "coupling", "heat_balance", "verification"]
 
 
-@record
+@record(equation="E1")
 class HertzContact:
     """Half width and largest pressure of the dry contact."""
 
@@ -21,18 +21,20 @@ class HertzContact:
     max_pressure: float = quantity("Hertzian pressure", "p_H", f"{XUE}, Eq. 14 without its π/4", unit="mpa")
 
 
-@record
+@record(equation="E2")
 class Dimensionless:
     """Dimensionless numbers of the contact: Moes' parameters, slide-roll ratio (u1 - u2)/um and Peclet numbers."""
 
     moes_m: float = quantity("load parameter of Moes", "M", "Moes 1992")
     moes_l: float = quantity("lubricant parameter of Moes", "L", "Moes 1992")
-    slide_roll_ratio: float = quantity("slide-roll ratio", "SRR", text="sliding over mean speed")
-    peclet_1: float = quantity("Péclet number of surface 1", "Pe_1")
-    peclet_2: float = quantity("Péclet number of surface 2", "Pe_2")
+    slide_roll_ratio: float = quantity(
+        "slide-roll ratio", "SRR", text="sliding over mean speed", equation="line-contact#hertz-contact-and-similarity"
+    )
+    peclet_1: float = quantity("Péclet number of surface 1", "Pe_1", equation="E11")
+    peclet_2: float = quantity("Péclet number of surface 2", "Pe_2", equation="E11")
 
 
-@record
+@record(equation="Xue 21")
 class FilmThickness:
     """Central and minimum film thickness, and the minimum by the formula of Dowson and Higginson."""
 
@@ -50,7 +52,7 @@ class FilmThickness:
     )
 
 
-@record
+@record(equation="E7")
 class ContactPressure:
     """Pressure in the film; the height of a sharp second maximum depends on the numerical mesh."""
 
@@ -63,7 +65,7 @@ class ContactPressure:
     second_maximum_at: float | None
 
 
-@record
+@record(equation="Xue 24")
 class ContactTemperature:
     """Largest temperatures of the film, of the middle of the film and of both surfaces [K].
 
@@ -71,7 +73,7 @@ class ContactTemperature:
     temperature of the surface minus the bulk temperature of the surface.
     """
 
-    film_max: float = quantity("largest film temperature", "θ_max", f"{XUE}, Eq. 23", unit="c")
+    film_max: float = quantity("largest film temperature", "θ_max", f"{XUE}, Eq. 23", unit="c", equation="E8")
     film_max_at: float
     mid_film_max: float
     mid_film_max_at: float
@@ -83,7 +85,7 @@ class ContactTemperature:
     surface_2_flash: float = quantity("flash temperature of surface 2", "Δθ_2", unit="k")
 
 
-@record
+@record(equation="E9")
 class ContactFriction:
     """Sliding power, and coefficients of friction from the stress in the middle of the film and at both surfaces.
 
@@ -101,7 +103,7 @@ class ContactFriction:
     traction_ratio: float
 
 
-@record
+@record(equation="E10")
 class ContactHeat:
     """Heat per length of contact [W/m]; heat that enters a surface or leaves with the oil is positive.
 
@@ -120,7 +122,7 @@ class ContactHeat:
     )
 
 
-@record
+@record(equation="line-contact#numerics")
 class MeshError:
     """Estimated relative errors of the results due to the numerical mesh.
 
@@ -155,7 +157,7 @@ class MeshError:
         return max(self.estimates.values())
 
 
-@record
+@record(equation="line-contact#numerics")
 class Convergence:
     """How the iteration ended: number of Newton steps, last changes of pressure and temperature, and load error.
 
@@ -196,6 +198,7 @@ class Convergence:
         "Δθ_check",
         unit="k",
         text="what an independent check of the finished temperatures finds, at most 0.1; null if isothermal",
+        equation="E12",
     )
 
     @property
@@ -250,8 +253,8 @@ class ContactField:
 class Derived(OilInUse):
     """Mean surface speed, reduced modulus and properties of the oil, which follow from the inputs alone."""
 
-    entrainment_speed: float = quantity("mean surface speed", "u_m", XUE, unit="m_per_s")
-    reduced_modulus: float = quantity("reduced modulus", "E'", XUE, unit="gpa")
+    entrainment_speed: float = quantity("mean surface speed", "u_m", XUE, unit="m_per_s", equation="Xue 18")
+    reduced_modulus: float = quantity("reduced modulus", "E'", XUE, unit="gpa", equation="E1")
 
 
 @record

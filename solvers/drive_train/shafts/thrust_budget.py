@@ -14,7 +14,7 @@ from solvers.sources import API_613
 USABLE = 0.5  # usable share of the ultimate rating
 
 
-@record
+@record(equation="D14")
 class Thrust:
     """Axial forces on one shaft, positive towards +Z, and the bounds of the load on the thrust bearing.
 
@@ -24,10 +24,14 @@ class Thrust:
 
     mesh: float = quantity("axial force of the mesh", "F_a", unit="n")
     coupling: float = quantity(
-        "thrust of the couplings", "τ F_max", unit="n", text="the stated share of the friction limit of all couplings"
+        "thrust of the couplings",
+        "τ F_max",
+        unit="n",
+        text="the stated share of the friction limit of all couplings",
+        equation="D7",
     )
     coupling_limit: float = quantity(
-        "limit of the coupling's thrust", "F_max", unit="n", text="of all couplings of the shaft"
+        "limit of the coupling's thrust", "F_max", unit="n", text="of all couplings of the shaft", equation="C20"
     )
     collar: float | None = quantity(
         "force of the thrust collar", "F_k", unit="n", text="holds mesh and couplings of the pinion; null without one"

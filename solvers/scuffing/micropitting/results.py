@@ -10,7 +10,7 @@ PointName = Literal["A", "AB", "B", "C", "D", "DE", "E"]
 Verdict = Literal["micropitting is likely", "limited margin", "micropitting is unlikely"]
 
 
-@record
+@record(equation="M14")
 class FilmOfTest:
     """The film between the test gears C-GF with the oil of the pair, at the load stage at which this oil fails."""
 
@@ -20,21 +20,28 @@ class FilmOfTest:
         ISO_TR_15144,
         text="least of the test gears at the failure load stage",
     )
-    bulk: float = quantity("bulk temperature of the micropitting test", "θ_M,T", ISO_TR_15144, unit="c")
-    friction_coefficient: float = quantity("coefficient of friction of the micropitting test", "μ_T", ISO_TR_15144)
+    bulk: float = quantity("bulk temperature of the micropitting test", "θ_M,T", ISO_TR_15144, unit="c", equation="M11")
+    friction_coefficient: float = quantity(
+        "coefficient of friction of the micropitting test", "μ_T", ISO_TR_15144, equation="M9"
+    )
     torque: float = quantity("pinion torque of the micropitting test", "T_1,T", ISO_TR_15144, unit="n_m")
     at_point: PointName = quantity("place of the thinnest film of the micropitting test", text="point of the path")
 
 
-@record
+@record(equation="M7")
 class LocalPoint:
     """The film at a point of the feature line.
 
     If the flanks do not touch at this point, film ratio and safety factor are None.
     """
 
-    point: PointName = quantity("point of the feature line")
-    psi: float = quantity("position of the point", "Ψ", text="fraction of the path, and of the feature line")
+    point: PointName = quantity("point of the feature line", equation="micropitting#method-a-the-own-load")
+    psi: float = quantity(
+        "position of the point",
+        "Ψ",
+        text="fraction of the path, and of the feature line",
+        equation="micropitting#method-a-the-own-load",
+    )
     ratio: float | None = quantity(
         "specific film thickness at the point", "λ_GF", ISO_TR_15144, text="null where nothing is in contact"
     )
@@ -43,7 +50,7 @@ class LocalPoint:
     )
 
 
-@record
+@record(equation="M7")
 class LocalFilm:
     """Film over the flank by method A, under the computed load distribution. Unknown values are None."""
 
@@ -61,13 +68,17 @@ class LocalFilm:
         "loaded path reaches a base circle",
     )
     at_psi: float | None = quantity(
-        "profile position of the thinnest film against micropitting", "ξ_λ", text="fraction of the path from A to E"
+        "profile position of the thinnest film against micropitting",
+        "ξ_λ",
+        text="fraction of the path from A to E",
+        equation="micropitting#method-a-the-own-load",
     )
     at_face: float | None = quantity(
         "face position of the thinnest film against micropitting",
         "y_λ",
         unit="mm",
         text="from the end that meshes first",
+        equation="micropitting#method-a-the-own-load",
     )
     verdict: Verdict | None = quantity(
         "risk of micropitting",
@@ -80,26 +91,32 @@ class LocalFilm:
         "μ_λ",
         f"{ISO_TR_15144}, formula 86",
         text="given, or by the report with the computed K_Hβ; null without load",
+        equation="M9",
     )
     thermal_ehl_ratio: float | None = quantity(
         "least specific film thickness by thermal EHL",
         "λ_EHL,min",
         text="the film by thermal EHL over the mean roughness, at the places that decide; null in closed form",
+        equation="micropitting#method-a-the-own-load",
     )
     points: tuple[LocalPoint, ...] = quantity("film against micropitting at the points of the feature line")
 
 
-@record
+@record(equation="M7")
 class StandardPoint:
     """Contact and film at a point of the path, by method B."""
 
-    point: PointName = quantity("point of the path")
-    force_ratio: float = quantity("load sharing factor of the standard", "X", f"{ISO_TR_15144}, formulas 46 to 48")
-    pressure: float = quantity(
-        "Hertzian pressure of the standard", "p_dyn", f"{ISO_TR_15144}, formulas 24 and 25", unit="mpa"
+    point: PointName = quantity("point of the path", equation="micropitting#method-b-the-standard")
+    force_ratio: float = quantity(
+        "load sharing factor of the standard", "X", f"{ISO_TR_15144}, formulas 46 to 48", equation="M12"
     )
-    flash: float = quantity("flash temperature of the standard", "θ_fl", f"{ISO_TR_15144}, formula 80", unit="k")
-    film: float = quantity("film of the standard", "h", f"{ISO_TR_15144}, formula 4", unit="um")
+    pressure: float = quantity(
+        "Hertzian pressure of the standard", "p_dyn", f"{ISO_TR_15144}, formulas 24 and 25", unit="mpa", equation="M13"
+    )
+    flash: float = quantity(
+        "flash temperature of the standard", "θ_fl", f"{ISO_TR_15144}, formula 80", unit="k", equation="M4"
+    )
+    film: float = quantity("film of the standard", "h", f"{ISO_TR_15144}, formula 4", unit="um", equation="M6")
     ratio: float = quantity("specific film thickness of the standard", "λ_GF", f"{ISO_TR_15144}, formula 2")
     safety: float | None = quantity(
         "safety factor against micropitting of the standard at the point",
@@ -109,15 +126,17 @@ class StandardPoint:
     )
 
 
-@record
+@record(equation="M7")
 class StandardFilm:
     """Results of method B at seven points of a spur pair without relief; the load is uniform over the face."""
 
     friction_coefficient: float = quantity(
-        "coefficient of friction of the standard", "μ_m", f"{ISO_TR_15144}, formula 86"
+        "coefficient of friction of the standard", "μ_m", f"{ISO_TR_15144}, formula 86", equation="M9"
     )
-    bulk: float = quantity("bulk temperature of the standard", "θ_M", f"{ISO_TR_15144}, formula 84", unit="c")
-    loss_factor: float = quantity("loss factor of the standard", "H_v", f"{ISO_TR_15144}, formula 91")
+    bulk: float = quantity(
+        "bulk temperature of the standard", "θ_M", f"{ISO_TR_15144}, formula 84", unit="c", equation="M11"
+    )
+    loss_factor: float = quantity("loss factor of the standard", "H_v", f"{ISO_TR_15144}, formula 91", equation="M10")
     least_ratio: float = quantity("least specific film thickness of the standard", "λ_GF,min", ISO_TR_15144)
     safety: float | None = quantity(
         "safety factor against micropitting of the standard",
@@ -128,7 +147,7 @@ class StandardFilm:
     points: tuple[StandardPoint, ...] = quantity("points of the path of contact")
 
 
-@record
+@record(equation="M14")
 class Micropitting:
     """The film over the flanks, compared with the film that the micropitting test of the oil requires."""
 
@@ -146,7 +165,7 @@ class Micropitting:
     )
 
 
-@record
+@record(equation="M15")
 class Wear:
     """Depth of wear of each gear per revolution of the gear [m].
 
