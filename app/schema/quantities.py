@@ -4,13 +4,15 @@ Names of fields contain the unit: `face_width_mm` is the face width in millimetr
 """
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
-from typing import Any, ClassVar, Literal, Self
+from math import isfinite
+from types import GenericAlias, UnionType
+from typing import Annotated, Any, ClassVar, Literal, Self, Union, get_args, get_origin
 
-from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import BeforeValidator, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
-from pydantic_core import CoreSchema, core_schema
+from pydantic_core import CoreSchema, PydanticKnownError
 
 from solvers.quantity import UNITS, Quantity, Unit, quantities
 
@@ -57,38 +59,47 @@ class Input(_Declaration):
     in_schema = ("symbol", "source", "assumed", "default_text", "advanced", "folded", "tolerance", "relative_tolerance")
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        """Add the checks of the field.
+        """Check the field: numbers are finite and in range, neither text nor booleans are numbers, lists fit."""
+        return handler(self._strict(source))
 
-        Numbers must be finite and in range, and must not be text or booleans. The length of a list must be permissible.
-        """
-        return self._strict(handler(source))
-
-    def _strict(self, schema: CoreSchema) -> CoreSchema:
+    def _strict(self, kind: Any) -> Any:
+        """Return the type `kind` with the checks of the field on every number in it."""
         bounds: Any = self.bounds
-        match schema["type"]:
-            case "float":  # strict: text and booleans are not numbers
-                return core_schema.float_schema(strict=True, allow_inf_nan=False, **bounds)
-            case "int":
-                # A strict int would refuse 3.0. Three checks follow one another instead. The first checks that the
-                # value is a number. The second checks that its magnitude is at most 2^53, because whole floats are
-                # exact up to this limit. The third checks that the number is whole and in range.
-                number = core_schema.custom_error_schema(core_schema.float_schema(strict=True), "int_type")
-                exact = core_schema.float_schema(allow_inf_nan=False, ge=-(2.0**53), le=2.0**53)
-                whole = core_schema.chain_schema([number, exact, core_schema.int_schema(**bounds)])
-                return core_schema.json_or_python_schema(core_schema.int_schema(strict=True, **bounds), whole)
-            case "bool":
-                return core_schema.bool_schema(strict=True)
-            case "union":  # a choice is a schema, or a pair of a schema and a name
-                kinds = (choice[0] if isinstance(choice, tuple) else choice for choice in schema["choices"])
-                return core_schema.union_schema([self._strict(kind) for kind in kinds])
-            case "list" if self.length:
-                least, most = self.length
-                return core_schema.list_schema(
-                    self._strict(schema["items_schema"]), min_length=least or None, max_length=most
-                )
-            case _:
-                within = ("items_schema", "schema", "json_schema_input_schema")
-                return {**schema, **{name: self._strict(part) for name in within if (part := schema.get(name))}}
+        origin, arguments = get_origin(kind), get_args(kind)
+        plain = {
+            float: Annotated[float, Field(strict=True, allow_inf_nan=False, **bounds)],
+            int: Annotated[
+                int, Field(strict=True, **bounds), BeforeValidator(_whole)
+            ],  # Field first: it keeps the range
+            bool: Annotated[bool, Field(strict=True)],
+        }
+        if origin is Annotated:
+            more = (
+                replace(each, json_schema_input_type=self._strict(each.json_schema_input_type))
+                if isinstance(each, BeforeValidator)
+                else each
+                for each in arguments[1:]
+            )
+            return Annotated[self._strict(arguments[0]), *more]
+        if origin in {Union, UnionType}:
+            return Union[tuple(self._strict(choice) for choice in arguments)]  # noqa: UP007
+        if origin is list:
+            least, most = self.length or (None, None)
+            return Annotated[
+                GenericAlias(list, self._strict(arguments[0])), Field(min_length=least or None, max_length=most)
+            ]
+        return plain.get(kind, kind)
+
+
+def _whole(value: Any) -> Any:
+    """Turn a whole float into an int, because JSON does not distinguish 3.0 from 3."""
+    if not isinstance(value, float):
+        return value
+    if not isfinite(value):
+        raise PydanticKnownError("finite_number")
+    if not value.is_integer():
+        raise PydanticKnownError("int_from_float")
+    return int(value)
 
 
 @dataclass(frozen=True)
