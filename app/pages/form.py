@@ -360,7 +360,7 @@ def field_view(leaf: Leaf, name: str, state: State) -> FieldView:
         help=_help(leaf, assumed=name in state.assumed),
         fault=state.faults.get(name),
         excludes=excluded(name, leaf),
-        reference=row_address("Requests", state.endpoint, leaf.path),
+        reference=row_address(state.endpoint, leaf.path),
         empty=words(cited(rule).replace("`", "")),
     )
 

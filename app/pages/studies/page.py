@@ -17,10 +17,10 @@ from app.figures.data import Figure
 from app.pages.cases import FILE_NAMES, REFUSED, Asked, Case, Fault, faults_of, solved
 from app.pages.charts import embedded
 from app.pages.form import FieldView
-from app.pages.query import CASES, LONGEST_QUERY, link, pairs_of, written_of
+from app.pages.query import LONGEST_QUERY, link, pairs_of, written_of
 from app.pages.results import NOT_RESULTS
 from app.pages.studies.controls import Choice, Control, Menu, Options, body_of, control_at, menu
-from app.pages.study_kinds import StudyLink, control_names
+from app.pages.study_kinds import CASES, StudyLink, control_names
 from app.pages.study_links import Starter, StudyExample
 from app.pages.templating import examples_of, rendered
 from app.pages.typed import as_typed, question, text_of
@@ -100,10 +100,8 @@ class StudyPage(ABC):
     ----------
     link, question, about
         Link to the page, heading of the page, and sentence below the heading.
-    names
-        Names of all controls that the page may have, except the menu of outputs.
-    figures, files
-        Names of all figures that the page can show, and the formats in which the answer can be downloaded.
+    figures
+        Names of all figures that the page can show.
     template
         Template of the result.
     outputs
@@ -129,14 +127,12 @@ class StudyPage(ABC):
     link: StudyLink
     question: str
     about: str
-    names: frozenset[str] = frozenset()
     figures: tuple[str, ...]
     template = "study_result.html"
     outputs: tuple[str, ...] = ()
     grows = False
     needs: tuple[str, ...] = ()
     choose = ""
-    files: tuple[str, ...] = ("ndjson",)
     plan: type[Study]
 
     def __init__(self, asked: Asked) -> None:
