@@ -34,7 +34,7 @@ Models = tuple[tuple[str, type[BaseModel]], ...]
 REQUESTS: Models = tuple((each.path, each.request) for each in CALCULATIONS)
 
 
-class Entry(NamedTuple):
+class FieldRow(NamedTuple):
     """A row of the table; backticks in a cell enclose code."""
 
     anchor: str  # on the page
@@ -52,7 +52,7 @@ class Entry(NamedTuple):
         return self.cells[1].split()
 
 
-def table(others: Models) -> tuple[Entry, ...]:
+def table(others: Models) -> tuple[FieldRow, ...]:
     """Return the rows of the table; `others` are the answers of the addresses that calculate nothing."""
     answers = tuple((each.path, each.response) for each in CALCULATIONS)
     studies = tuple((kind.path, kind.model) for kind in KINDS)
@@ -61,18 +61,18 @@ def table(others: Models) -> tuple[Entry, ...]:
 
 
 @cache
-def entries(section: str, models: Models) -> tuple[Entry, ...]:
+def entries(section: str, models: Models) -> tuple[FieldRow, ...]:
     """Return the rows of a section. Fields that differ only in their endpoints share a row."""
     found: dict[tuple[str, ...], dict[str, None]] = {}
     for endpoint, model in models:
         for field in _fields(model):
             found.setdefault((f"`{field.path}`", *_cells(field)), {})[endpoint] = None
-    rows, places = list[Entry](), Counter[str]()
+    rows, places = list[FieldRow](), Counter[str]()
     for (path, *rest), endpoints in found.items():
         places[path] += 1
         number = f"-{places[path]}" if places[path] > 1 else ""
         anchor = f"{section.lower()}.{path.strip('`')}{number}"
-        rows.append(Entry(anchor, section, (path, " ".join(endpoints), *rest)))
+        rows.append(FieldRow(anchor, section, (path, " ".join(endpoints), *rest)))
     return tuple(rows)
 
 

@@ -63,7 +63,7 @@ def chapter_page(root: str, name: str) -> str:
 
 @lru_cache(maxsize=4)
 def fields_page(root: str, others: Models) -> str:
-    """Return the page with the table of all fields; `others` are the answers of the addresses that calculate nothing."""
+    """Return the page with the table of all fields; `others`: see `app.manual.fields.table`."""
     chapter = chapters()[FIELDS]
     content = {"sections": SECTIONS, "columns": COLUMNS, "entries": table(others)}
     return rendered("manual_fields.html", root, chapter=chapter, body=_html(chapter.text, root), **content)

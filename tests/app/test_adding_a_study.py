@@ -43,7 +43,7 @@ class Twice(Study):
     answer = "a line with both values"
     model = TwiceRequest
 
-    def _planned(self, base: Any, most: int) -> int:
+    def _planned(self, base: Any, _: int) -> int:
         leaf = base.leaf(self.body.path, "path")
         self.cases = [{}, {leaf.path: 2 * value_at(base.checked({}).model_dump(), leaf.path)}]
         return len(self.cases)

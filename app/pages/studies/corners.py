@@ -7,7 +7,7 @@ from app.figures.models.drive_train import LOAD_ALONE
 from app.figures.studies import corners
 from app.figures.units import axis_of
 from app.figures.wording import listed, number
-from app.pages.cases import Case
+from app.pages.cases import SolvedCase
 from app.pages.studies.page import Link, Number, Result, Table
 from app.pages.studies.unit import UnitPage, load_figure
 from app.pages.study_kinds import CORNERS, DESIGN
@@ -97,7 +97,7 @@ class CornersPage(UnitPage):
             rows.append(Row(listed(list(titles)), pick(dot.value for dot in dots), dots=dots))
         return rows
 
-    def _extremes(self, extremes: dict[str, Line], case: Case) -> Table:
+    def _extremes(self, extremes: dict[str, Line], case: SolvedCase) -> Table:
         """Return a table of the least and the largest value of each output.
 
         Each least or largest value is a link to the corner at which the value occurs.

@@ -7,7 +7,7 @@ from app.figures.data import Figure, NoFigure, values
 from app.figures.models.drive_train import GAP, LOAD_ALONE
 from app.figures.studies import Lead, lead_chart, search
 from app.figures.units import axis_of
-from app.pages.cases import Case
+from app.pages.cases import SolvedCase
 from app.pages.studies.controls import Control
 from app.pages.studies.page import OUTPUT, Controls, Link, Number, Result, Table
 from app.pages.studies.unit import UnitPage, load_figure
@@ -144,7 +144,7 @@ class DesignPage(UnitPage):
         rows.append((judged, shown(start["objective"]), shown(best["objective"]), self.output.unit or ""))
         return Table("Best so far", ("correction", Number("as described"), Number("best so far"), "unit"), rows)
 
-    def _sheet(self, case: Case, at: Overrides) -> Table:
+    def _sheet(self, case: SolvedCase, at: Overrides) -> Table:
         """Return the sheet for the grinder: gear, place on the flank, amount and tolerance of each correction."""
         inputs = case.response.inputs
         slope = float(at[SLOPE] or 0.0)
@@ -175,7 +175,7 @@ class DesignPage(UnitPage):
         )
         return Table("What to grind", ("gear", "correction", "where", *numbered, "unit"), rows, note)
 
-    def _before_and_after(self, end: Line, wanted: Line, case: Case, ground: Case) -> Table:
+    def _before_and_after(self, end: Line, wanted: Line, case: SolvedCase, ground: SolvedCase) -> Table:
         """Return a table that compares the output before and after the correction.
 
         One column is for the correction as entered, and one column is for the best correction. The first row states
@@ -196,7 +196,7 @@ class DesignPage(UnitPage):
             )
         return Table("What it brings", (output.title, Number("as described"), Number("ground so"), "unit"), rows, note)
 
-    def _lead_chart(self, case: Case, at: Overrides) -> Figure:
+    def _lead_chart(self, case: SolvedCase, at: Overrides) -> Figure:
         """Return the figure of the lead, which is the sum of helix slope and crowning.
 
         The solid line is the lead to grind, with its tolerance band. The dashed line is the lead as entered.
@@ -209,7 +209,7 @@ class DesignPage(UnitPage):
         return lead_chart(values(curves.z_mm), position / position[-1], wanted, before, tolerance, _ends(case))
 
 
-def _ends(case: Case) -> tuple[str, str]:
+def _ends(case: SolvedCase) -> tuple[str, str]:
     """Return the names of both ends of the face. The end that meshes first comes first."""
     first, *_, last = case.response.misalignment.curves.z_mm
     drive = case.request.pinion_shaft.torque_position_mm
@@ -219,7 +219,7 @@ def _ends(case: Case) -> tuple[str, str]:
     return f"{sides[0]} (Z = {shown(first)} mm)", f"{sides[1]} (Z = {shown(last)} mm)"
 
 
-def _numbers(case: Case, end: Line, at: Overrides) -> Table:
+def _numbers(case: SolvedCase, end: Line, at: Overrides) -> Table:
     """Return a table that explains why the pages of a gear unit show different values of helix slope and crowning.
 
     Each row states one helix slope, one crowning, and the source of both values.
@@ -240,7 +240,7 @@ def _numbers(case: Case, end: Line, at: Overrides) -> Table:
     )
 
 
-def _gap(ground: Case, case: Case) -> dict[str, Figure]:
+def _gap(ground: SolvedCase, case: SolvedCase) -> dict[str, Figure]:
     """Return the figure of the gap between the flanks over the face.
 
     Solid lines show the gap with the correction to grind, and dashed lines the gap with the correction as entered. In

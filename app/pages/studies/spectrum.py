@@ -11,7 +11,7 @@ from typing import Any
 from app.calculations import Calculation
 from app.errors import Unprocessable
 from app.figures.data import Figure, NoFigure
-from app.figures.spectrum import Limited, SpectrumCase, chance_text, chances, deciding, losses, overlap, sentence
+from app.figures.spectrum import Limited, LimitedCase, chance_text, chances, deciding, losses, overlap, sentence
 from app.figures.units import axis_of
 from app.figures.wording import difference_unit, number, percent
 from app.pages.form import FieldView
@@ -340,7 +340,7 @@ class SpectrumPage(StudyPage):
         place = end["limits"].index(limit)
         decides = limit["decides"] or [None] * len(end["cases"])
         cases = [
-            SpectrumCase(case["name"], case["quantiles"][self.output.path], case["limits"][place], share)
+            LimitedCase(case["name"], case["quantiles"][self.output.path], case["limits"][place], share)
             for case, share in zip(end["cases"], decides, strict=True)
         ]
         worst = sorted(cases, key=lambda case: -case.chance["bounds"][1])[:MOST_BARS]

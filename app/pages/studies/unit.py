@@ -7,7 +7,7 @@ from typing import Any
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure
 from app.figures.models.drive_train import LOAD_ALONE
-from app.pages.cases import REFUSED, Case
+from app.pages.cases import REFUSED, SolvedCase
 from app.pages.studies.controls import Control, numbered
 from app.pages.studies.page import Controls, Number, StudyPage, Table, titled
 from app.pages.study_kinds import control_of
@@ -69,7 +69,7 @@ class UnitPage(StudyPage):
         )
         return (Controls("Uncertain inputs", fields=tuple(fields), about=about),)
 
-    def corner_table(self, title: str, case: Case, corner: Overrides) -> Table:
+    def corner_table(self, title: str, case: SolvedCase, corner: Overrides) -> Table:
         """Return a table of the inputs that a corner changes.
 
         The table contains the values as described by the user and the values at the corner.
@@ -91,7 +91,7 @@ def _typed(axis: Axis, text: str) -> dict[str, Any]:
     return {"path": axis.path, "values": [row[0] if len(row) == 1 else row for row in rows]}
 
 
-def load_figure(case: Case, reference: Case, name: str, finding: str) -> dict[str, Figure]:
+def load_figure(case: SolvedCase, reference: SolvedCase, name: str, finding: str) -> dict[str, Figure]:
     """Return the figure that compares the load along the face in two cases.
 
     The lines of `case` are solid, and the lines of `reference` are dashed. `name` is the name of `case` in the legend.
