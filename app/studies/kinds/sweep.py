@@ -155,7 +155,7 @@ class Sweep(Study):
     summary = "One request at many points: a grid, a list of cases, a random sample"
     answer = "a line for the sweep, one for each point in order, one for the end"
     model: ClassVar[type[Any]] = SweepRequest
-    formats = ("csv", "ndjson")
+    formats: ClassVar[tuple[str, ...]] = ("csv", "ndjson")
     is_reduced = False
     points: PointSet
 
