@@ -36,6 +36,7 @@ def main() -> None:
     solve = commands.add_parser("solve", help="print the answer to a request instead of serving")
     solve.add_argument("endpoint", help="address of the calculation, such as /v1/coupling")
     solve.add_argument("file", type=Path, help="file with the request as JSON; - stands for the standard input")
+    commands.add_parser("fields", help="print the table of all fields, one a line, for grep, instead of serving")
     compiling = commands.add_parser("compile", help="compile the kernels and keep them on disk instead of serving")
     compiling.add_argument("stages", nargs="*", help="names of stages, such as coupling; by default all")
     arguments = parser.parse_args()
@@ -44,6 +45,8 @@ def main() -> None:
             print_unit(arguments.file)
         case "solve":
             print_answer(arguments.endpoint, arguments.file)
+        case "fields":
+            print_fields()
         case "compile":
             compile_kernels(arguments.stages)
         case _:
@@ -90,6 +93,15 @@ def print_answer(endpoint: str, file: Path) -> None:
         sys.exit("\n".join(f"tribodrive: {sentence(fault)}" for fault in faults_of(error)))
     _print_json(content)
     sys.exit(EXIT_STATUS[content["status"]])
+
+
+def print_fields() -> None:
+    """Print the table of all fields of requests and answers, one field a line, with tabs between the columns."""
+    from app.http.routes.manual import OTHER_ANSWERS  # noqa: PLC0415
+    from app.manual.fields import COLUMNS, table  # noqa: PLC0415
+
+    rows = [("section", *COLUMNS), *((entry.section, *entry.cells) for entry in table(OTHER_ANSWERS))]
+    _print("\n".join("\t".join(row) for row in rows).replace("`", ""))
 
 
 def compile_kernels(names: Sequence[str]) -> None:
@@ -139,18 +151,23 @@ def _tell(name: str, percent: int) -> None:
 
 
 def _print_json(content: dict[str, Any]) -> None:
-    """Print JSON. Use escapes if the standard output cannot encode a character.
-
-    If printing fails because the reader of a pipe has closed the pipe, continue. If printing fails for any other
-    reason, end the program with a message about this reason.
-    """
+    """Print JSON, with JSON's escapes for characters that the standard output cannot encode."""
     text = json.dumps(content, indent=1, ensure_ascii=False)
     try:
         text.encode(sys.stdout.encoding)
     except UnicodeEncodeError:
         text = json.dumps(content, indent=1)
+    _print(text)
+
+
+def _print(text: str) -> None:
+    """Print a text. If the reader of a pipe has closed it, continue; if printing fails otherwise, exit with the reason.
+
+    Characters that the standard output cannot encode are escaped.
+    """
+    encoding = sys.stdout.encoding
     try:
-        print(text, flush=True)  # noqa: T201  a command's output
+        print(text.encode(encoding, "backslashreplace").decode(encoding), flush=True)  # noqa: T201  a command's output
     except OSError as error:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the flush at exit must not fail
         if not isinstance(error, BrokenPipeError):  # BrokenPipeError: the pipe has been closed

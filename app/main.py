@@ -19,7 +19,7 @@ from app import log
 from app.errors import PROBLEMS
 from app.http import problems
 from app.http.middleware import Protection
-from app.http.routes import calculations, pages, rexs, service, studies, study_pages
+from app.http.routes import calculations, manual, pages, rexs, service, studies, study_pages
 from app.schema.answers import MODEL_VERSION
 from app.settings import MEBIBYTE, settings, unknown_variables
 from app.studies.admission import StudyAdmission
@@ -90,7 +90,7 @@ def create_app() -> FastAPI:
     )
     app.include_router(calculations.router)
     app.include_router(calculations.figures)
-    for routes in (studies, rexs, pages, study_pages, service):
+    for routes in (studies, rexs, manual, pages, study_pages, service):
         app.include_router(routes.router)
     app.include_router(rexs.pages)
     app.mount(service.DOCS_ASSETS, StaticFiles(packages=[("fastapi_offline", "static")]))

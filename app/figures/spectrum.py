@@ -20,7 +20,7 @@ NAMED = 8  # largest number of tolerances in a figure
 LEAST = 1e-5  # smaller probabilities are not stated, because the tails of the distributions are not known so far out
 
 
-class SpectrumCase(NamedTuple):
+class LimitedCase(NamedTuple):
     """A case of a load spectrum, with the results for an output that has a limit.
 
     `quantiles` holds the quantiles of the output at 5, 50 and 95 %. `quantiles` is None if no random draw has a
@@ -45,7 +45,7 @@ class Limited(NamedTuple):
 
     output: Axis
     found: dict[str, Any]
-    cases: list[SpectrumCase]
+    cases: list[LimitedCase]
     influences: dict[str, float]
 
 

@@ -1,7 +1,7 @@
 """The theory manual: chapters in Markdown beside this file.
 
 `equations` finds the numbered equations and the functions that implement the equations. `results` finds the equation or
-the section that explains a result. `fields` reads the table of all fields. `app.pages.manual` writes the pages of the
+the section that explains a result. `fields` makes the table of all fields. `app.pages.manual` writes the pages of the
 chapters.
 """
 
@@ -12,7 +12,7 @@ from importlib.resources import files
 from importlib.resources.abc import Traversable
 
 FIELDS = "fields"
-"""Name of the chapter that contains the table of all fields."""
+"""Name of the chapter below which its page shows the table of all fields."""
 
 NAMES = (
     "coupling",

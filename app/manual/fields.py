@@ -1,12 +1,22 @@
-"""The chapter "Inputs and outputs": a table of all fields, generated from the models of the service.
+"""The table of the chapter "Inputs and outputs": every field of every request and answer, read from their models."""
 
-`python -m tests.manual.test_generated` renews the table; this module reads the table for the pages.
-"""
-
+from collections import Counter
+from collections.abc import Iterator
 from functools import cache
-from typing import NamedTuple
+from inspect import get_annotations
+from types import NoneType
+from typing import Any, Literal, NamedTuple, get_args, get_origin
 
-from app.manual import FIELDS, chapters
+from pydantic import BaseModel
+from pydantic.fields import FieldInfo
+
+from app.calculations import CALCULATIONS
+from app.manual import FIELDS
+from app.schema.fields import ITEM
+from app.schema.model import kinds
+from app.schema.quantities import Input, Output, meaning_of
+from app.studies.kinds import KINDS
+from solvers.quantity import UNITS, allowed
 
 COLUMNS = (
     *("field", "endpoints", "type", "unit", "range", "default", "symbol", "source", "meaning", "solver", "schema"),
@@ -17,19 +27,23 @@ SECTIONS = {
     "Studies": "The inputs of the studies. The field `request` contains a request of the endpoint that is studied.",
     "Service": "The answers of the other addresses.",
 }
-BAR = "\N{BROKEN BAR}"  # replaces an escaped bar while a row is split
+WORDS: dict[Any, str] = {float: "number", int: "integer", bool: "boolean", str: "text", Any: "any"}
+
+Models = tuple[tuple[str, type[BaseModel]], ...]
+"""Endpoints, each with the model of its request or answer."""
+REQUESTS: Models = tuple((each.path, each.request) for each in CALCULATIONS)
 
 
-class Entry(NamedTuple):
-    """A row of the table: its anchor on the page, its section, and its cells under `COLUMNS`."""
+class FieldRow(NamedTuple):
+    """A row of the table; backticks in a cell enclose code."""
 
-    anchor: str
+    anchor: str  # on the page
     section: str
-    cells: tuple[str, ...]
+    cells: tuple[str, ...]  # under `COLUMNS`
 
     @property
     def path(self) -> str:
-        """The dotted path of the field: the first cell of the row, without the backticks."""
+        """The dotted path of the field."""
         return self.cells[0].strip("`")
 
     @property
@@ -38,30 +52,135 @@ class Entry(NamedTuple):
         return self.cells[1].split()
 
 
+def table(others: Models) -> tuple[FieldRow, ...]:
+    """Return the rows of the table; `others` are the answers of the addresses that calculate nothing."""
+    answers = tuple((each.path, each.response) for each in CALCULATIONS)
+    studies = tuple((kind.path, kind.model) for kind in KINDS)
+    models = zip(SECTIONS, (REQUESTS, answers, studies, others), strict=True)
+    return tuple(entry for section, some in models for entry in entries(section, some))
+
+
 @cache
-def entries() -> tuple[Entry, ...]:
-    """Return the rows of the table."""
-    chapter, rows, anchors = chapters()[FIELDS], list[Entry](), set[str]()
-    for section in SECTIONS:
-        for line in chapter.section(section).splitlines():
-            if line.startswith("| `"):
-                cells = [cell.strip().replace(BAR, "|") for cell in line.replace(r"\|", BAR).strip("|").split("|")]
-                anchor = name = f"{section.lower()}.{cells[0].strip('`')}"
-                number = 1
-                while anchor in anchors:
-                    number += 1
-                    anchor = f"{name}-{number}"
-                anchors.add(anchor)
-                rows.append(Entry(anchor, section, tuple(cells)))
+def entries(section: str, models: Models) -> tuple[FieldRow, ...]:
+    """Return the rows of a section. Fields that differ only in their endpoints share a row."""
+    found: dict[tuple[str, ...], dict[str, None]] = {}
+    for endpoint, model in models:
+        for field in _fields(model):
+            found.setdefault((f"`{field.path}`", *_cells(field)), {})[endpoint] = None
+    rows, places = list[FieldRow](), Counter[str]()
+    for (path, *rest), endpoints in found.items():
+        places[path] += 1
+        number = f"-{places[path]}" if places[path] > 1 else ""
+        anchor = f"{section.lower()}.{path.strip('`')}{number}"
+        rows.append(FieldRow(anchor, section, (path, " ".join(endpoints), *rest)))
     return tuple(rows)
 
 
 @cache
-def _anchors() -> dict[tuple[str, str, str], str]:
-    return {(row.section, endpoint, row.path): row.anchor for row in entries() for endpoint in row.endpoints}
+def _anchors() -> dict[tuple[str, str], str]:
+    return {(endpoint, row.path): row.anchor for row in entries("Requests", REQUESTS) for endpoint in row.endpoints}
 
 
-def address(section: str, endpoint: str, path: str) -> str:
-    """Return the address of the row of a field, or an empty text if the field has no row."""
-    anchor = _anchors().get((section, endpoint, path))
+def address(endpoint: str, path: str) -> str:
+    """Return the address of the row of a request's field, or an empty text if the field has no row."""
+    anchor = _anchors().get((endpoint, path))
     return f"/manual/{FIELDS}#{anchor}" if anchor else ""
+
+
+class _Field(NamedTuple):
+    """A field that contains a value, and not a section."""
+
+    path: str
+    model: type[BaseModel]  # the class that declares the field
+    name: str
+    info: FieldInfo
+    meaning: Input | Output | None  # None if the field is declared neither as an input nor as an output
+    lists: int
+    kinds: tuple[Any, ...]
+
+
+def _fields(model: type[BaseModel], above: str = "") -> Iterator[_Field]:
+    """Yield every field of a model and of the models inside this model, in the order of the schema."""
+    for name, info in model.model_fields.items():
+        path = f"{above}.{name}" if above else name
+        allowed_kinds = tuple(kinds(info.annotation))
+        lists = max((lists for _, lists in allowed_kinds), default=0)
+        inner = [kind for kind, _ in allowed_kinds if isinstance(kind, type) and issubclass(kind, BaseModel)]
+        for each in inner:
+            yield from _fields(each, path + f".{ITEM}" * lists)
+        if not inner:
+            declaring = next(base for base in model.__mro__ if name in get_annotations(base))
+            found = tuple(kind for kind, _ in allowed_kinds)
+            yield _Field(path, declaring, name, info, meaning_of(info.metadata), lists, found)
+
+
+def _cells(field: _Field) -> tuple[str, ...]:
+    """Return the cells of a field's row that follow the path and the endpoints."""
+    meaning = field.meaning
+    unit = meaning.unit if meaning else None
+    return (
+        _type(field),
+        UNITS[unit].symbol if unit else "",
+        allowed(meaning) if isinstance(meaning, Input) else "",
+        _default(field),
+        (meaning.symbol or "") if meaning else "",
+        (meaning.source or "") if meaning else "",
+        meaning.title if meaning else field.info.description or "",
+        _solver(meaning),
+        f"`{field.model.__module__}.{field.model.__qualname__}`",
+    )
+
+
+def _type(field: _Field) -> str:
+    """Return the type of a field's values in words."""
+    words = []
+    if Any in field.kinds:  # checked by a validator, which brings its own schema
+        document = field.model.model_json_schema()["properties"][field.name]
+        return " or ".join(dict.fromkeys(_words(document)))
+    for kind in field.kinds:
+        if get_origin(kind) is Literal:
+            words += [f"`{each}`" if isinstance(each, str) else str(each) for each in get_args(kind)]
+        elif hasattr(kind, "__members__"):
+            words += [f"`{each.value}`" for each in kind]
+        else:
+            words.append(WORDS.get(kind, "object" if get_origin(kind) is dict or kind is dict else str(kind)))
+    text = ("", "list of ", "matrix of ")[field.lists] + " or ".join(dict.fromkeys(words))
+    return f"{text} or null" if NoneType in get_args(field.info.annotation) else text
+
+
+def _words(document: dict[str, Any]) -> Iterator[str]:
+    """Yield the types that a JSON schema allows, in words."""
+    for each in document.get("anyOf", [document]):
+        match each.get("type"):
+            case "array":
+                yield from (f"list of {word}" for word in dict.fromkeys(_words(each["items"])))
+            case "string":
+                yield "path of a field" if "pattern" in each else "text"
+            case kind:
+                yield kind or "any"
+
+
+def _default(field: _Field) -> str:
+    """Return the default of an input in the unit of the field; empty for an output."""
+    if isinstance(field.meaning, Output):
+        return ""
+    if field.info.is_required():
+        return "required"
+    value = field.info.get_default(call_default_factory=True)
+    stated = field.meaning.default_text if field.meaning else None
+    if value is None:
+        return f"null: {stated}" if stated else "null"
+    if isinstance(value, list | dict):
+        return f"`{value}`" if value else "empty"
+    if isinstance(value, bool):
+        return str(value).lower()
+    return f"{value:.12g}" if isinstance(value, int | float) else f"`{value}`"
+
+
+def _solver(meaning: Input | Output | None) -> str:
+    """Return the dotted name of the solver's attribute, in the class that declares it; empty if there is none."""
+    if meaning is None or meaning.origin is None:
+        return ""
+    record, name = meaning.origin
+    owner: Any = next(base for base in record.__mro__ if name in get_annotations(base) or name in vars(base))
+    return f"`{owner.__module__}.{owner.__qualname__}.{name}`"

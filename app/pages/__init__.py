@@ -18,7 +18,8 @@ variants     three or more variants of a case in a small table
 views        one view of a case (page, report, figure or file), made in a worker process
 overview     pages that belong to no case
 studies      pages of studies, drawn while the study is calculated
-study_links  links to the pages of studies
+study_kinds  the kinds of study: links to their pages, and names of their controls
+study_links  links to studies that are ready to run
 templating   templates, and the addresses of pages
 typesetting  symbols and numbers as they are printed
 """

@@ -199,7 +199,7 @@ def key_of(path: str, pairs: Pairs) -> str:
     return sha256(repr((path, sorted(pairs))).encode()).hexdigest()
 
 
-class Fault(NamedTuple):
+class FormFault(NamedTuple):
     """A fault in a request: the dotted path of the field, and the message about the fault."""
 
     path: str
@@ -207,7 +207,7 @@ class Fault(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Case:
+class SolvedCase:
     """A request and its answer; `kept` holds the request and the solver's result, pickled and compressed."""
 
     calculation: Calculation
@@ -216,7 +216,7 @@ class Case:
     kept: bytes
 
 
-def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None, detail: Detail = "fields") -> Case:
+def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None, detail: Detail = "fields") -> SolvedCase:
     """Return the case with its answer. By default the answer has all fields that the figures of the case need.
 
     If `kept` is given, request and result are read from `kept`, and `pairs` is ignored.
@@ -233,10 +233,10 @@ def solved(calculation: Calculation, pairs: Pairs, kept: bytes | None, detail: D
     else:
         request, result = pickle.loads(zlib.decompress(kept))  # noqa: S301  our own
     request = request.model_copy(update={"detail": detail})
-    return Case(calculation, request, response_to(calculation, request, result), kept)
+    return SolvedCase(calculation, request, response_to(calculation, request, result), kept)
 
 
-def faults_of(error: Exception, calculation: Calculation) -> list[Fault]:
+def faults_of(error: Exception, calculation: Calculation) -> list[FormFault]:
     """Return the faults for which a case was refused. The messages name each field by its title."""
     match error:
         case InvalidBody():
@@ -246,7 +246,7 @@ def faults_of(error: Exception, calculation: Calculation) -> list[Fault]:
             messages = [(error.path or "", error.message)]
         case _:
             messages = [("", str(error))]
-    return [Fault(path, _titled(message, path, calculation)) for path, message in messages]
+    return [FormFault(path, _titled(message, path, calculation)) for path, message in messages]
 
 
 def _titled(message: str, path: str, calculation: Calculation) -> str:

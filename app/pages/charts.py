@@ -14,7 +14,7 @@ from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, Role, ThemeName, Values
 from app.figures.declaration import Declaration
 from app.figures.tables import Item, columns_of
-from app.pages.cases import Asked, Case
+from app.pages.cases import Asked, SolvedCase
 
 VARIANT = "variant A"
 MOST_LINES = 200  # largest number of lines of a table on a page; the CSV file of the figure has all lines
@@ -44,7 +44,7 @@ class Chart:
     study: str = ""
 
 
-def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Figure:
+def figure_of(declaration: Declaration, case: SolvedCase, variant: SolvedCase | None) -> Figure:
     """Return a figure of the case; raise NoFigure if the case does not have this figure.
 
     If `variant` is given and has the same figure, the curves of `variant` are added for comparison.
@@ -60,7 +60,7 @@ def figure_of(declaration: Declaration, case: Case, variant: Case | None) -> Fig
 
 
 def figures_of(
-    case: Case, variant: Case | None, *, compute: bool = False
+    case: SolvedCase, variant: SolvedCase | None, *, compute: bool = False
 ) -> tuple[list[tuple[Declaration, Figure | None]], list[tuple[str, NoFigure]]]:
     """Return the figures that the page of a case shows, and the titles of missing figures with the reasons.
 

@@ -9,7 +9,7 @@ from itertools import product, zip_longest
 from typing import Any
 
 from app.errors import Unprocessable
-from app.pages.cases import Case
+from app.pages.cases import SolvedCase
 from app.pages.results import entries, flattened
 from app.pages.typed import text_of
 from app.schema.answers import Response
@@ -20,7 +20,7 @@ from app.studies.fields import value_at
 DIGITS = 6  # significant digits; because of the tolerances of the solvers, fewer digits are accurate
 
 
-def values(case: Case, title: str) -> bytes:
+def values(case: SolvedCase, title: str) -> bytes:
     """Return the CSV table of a case: identifying lines, all inputs with their defaults, and all scalar results.
 
     The identifying lines state the title, the endpoint, the version of the models, and the hashes of the sources and of

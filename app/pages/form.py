@@ -30,7 +30,7 @@ The form does not show this field, because every page sets the level that it nee
 
 
 @dataclass(frozen=True, slots=True)
-class State:
+class FormState:
     """The state of a form. The keys of all mappings are the names of fields.
 
     `texts` holds the texts of the fields, `faults` holds the messages about their faults, and `resolved` holds the
@@ -90,7 +90,7 @@ class FieldView:
 
 
 @dataclass(frozen=True, slots=True)
-class Choice:
+class Alternatives:
     """Alternative fields, of which only one may be given; `picked` is the name of the field that is used."""
 
     name: str
@@ -101,7 +101,7 @@ class Choice:
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class FormSection:
     """A part of the form.
 
     `kind` is one of three words:
@@ -131,7 +131,7 @@ class Section:
     kind: str = "section"
 
 
-Block = FieldView | Choice | Section | tuple[FieldView, ...]
+Block = FieldView | Alternatives | FormSection | tuple[FieldView, ...]
 
 
 def anchor(path: str) -> str:
@@ -160,13 +160,13 @@ def title_of(request: type[Request], path: str) -> str:
     return ", ".join(sections[outer].title for outer in around if outer in sections) or path
 
 
-def form(request: type[Request], state: State) -> tuple[Section, ...]:
+def form(request: type[Request], state: FormState) -> tuple[FormSection, ...]:
     """Return the sections of the form: sections with required fields first, advanced sections last."""
     root, loose = tree(request), list[Block]()
     state = replace(state, endpoint=ENDPOINTS.get(request, ""))
     sections = []
     for block in _blocks(root, "", state):
-        if not isinstance(block, Section):
+        if not isinstance(block, FormSection):
             loose.append(block)
         elif block.kind == "section":
             sections.append(block)
@@ -180,7 +180,7 @@ def form(request: type[Request], state: State) -> tuple[Section, ...]:
     return tuple(sorted(sections, key=lambda section: (not section.needed, section.advanced, not section.deciding)))
 
 
-def _section(title: str, blocks: Iterable[Block], state: State, paths: list[str], **settled: Any) -> Section:
+def _section(title: str, blocks: Iterable[Block], state: FormState, paths: list[str], **settled: Any) -> FormSection:
     """Return a section of the form, with the fields of the request at or below `paths`.
 
     `settled` holds further attributes of the section. The section is open if its attribute `needed` is True, or if one
@@ -197,7 +197,7 @@ def _section(title: str, blocks: Iterable[Block], state: State, paths: list[str]
         "id": anchor(paths[0]),
         "fault": "; ".join(state.faults[path] for path in paths if path in state.faults) or None,
     }
-    return Section(title=title, blocks=tuple(blocks), **attributes | settled)
+    return FormSection(title=title, blocks=tuple(blocks), **attributes | settled)
 
 
 def _count(names: Iterable[str], path: str) -> int:
@@ -205,7 +205,7 @@ def _count(names: Iterable[str], path: str) -> int:
     return sum(name == path or name.startswith(f"{path}.") for name in names)
 
 
-def _branch(branch: Branch, path: str, state: State, item: int | None = None) -> Section:
+def _branch(branch: Branch, path: str, state: FormState, item: int | None = None) -> FormSection:
     """Return the part of the form that shows a section of the request.
 
     If the section is an item of a list, `item` is the index of the section in the list.
@@ -234,7 +234,7 @@ def _branch(branch: Branch, path: str, state: State, item: int | None = None) ->
     )
 
 
-def _with_folded(branch: Branch, path: str, state: State) -> Iterator[Block]:
+def _with_folded(branch: Branch, path: str, state: FormState) -> Iterator[Block]:
     """Yield the blocks of a section, and then an inner section with the fields that only few users need."""
     folded = {f"{path}.{_last(leaf.path)}" for leaf in branch.leaves if leaf.declared.folded}
     behind = list[Block]()
@@ -248,7 +248,7 @@ def _with_folded(branch: Branch, path: str, state: State) -> Iterator[Block]:
         yield _section("advanced", behind, state, sorted(folded), path=name, id=anchor(name), fault=None)
 
 
-def _rows(branch: Branch, path: str, state: State) -> Section:
+def _rows(branch: Branch, path: str, state: FormState) -> FormSection:
     below = (name.removeprefix(f"{path}.") for name in state.texts if name.startswith(f"{path}."))
     indices = (name.partition(".")[0] for name in below)
     count = 1 + max((int(index) for index in indices if index.isdecimal() and index.isascii()), default=-1)
@@ -256,7 +256,7 @@ def _rows(branch: Branch, path: str, state: State) -> Section:
     return _section(branch.title, items, state, [path], given=count, description=branch.description, kind="rows")
 
 
-def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Section:
+def _twins(group: tuple[Branch, ...], prefix: str, state: FormState) -> FormSection:
     columns = {prefix + _last(branch.path): branch.title for branch in group}
     lines = [
         tuple(
@@ -269,7 +269,7 @@ def _twins(group: tuple[Branch, ...], prefix: str, state: State) -> Section:
     return _section(title, lines, state, [*columns], needed=needed, columns=columns, kind="twins")
 
 
-def _blocks(branch: Branch, prefix: str, state: State) -> Iterator[Block]:
+def _blocks(branch: Branch, prefix: str, state: FormState) -> Iterator[Block]:
     """Yield the fields of a section and the sections inside the section, in the order of the schema."""
     choices = _choices(branch)
     shown = {DETAIL}
@@ -307,16 +307,16 @@ def _choices(branch: Branch) -> dict[str, tuple[Leaf, ...]]:
     return choices
 
 
-def _choice(group: tuple[Leaf, ...], prefix: str, state: State, required: str) -> Choice:
+def _choice(group: tuple[Leaf, ...], prefix: str, state: FormState, required: str) -> Alternatives:
     fields = {prefix + _last(leaf.path): leaf for leaf in group}
     given = [name for name in fields if name in state.texts]
     resolved = [name for name in fields if state.resolved.get(name) is not None]
     first, *_ = fields
     views = tuple(field_view(leaf, name, state) for name, leaf in fields.items())
-    return Choice(PICK + first, views, [*given, *resolved, first][0], required)
+    return Alternatives(PICK + first, views, [*given, *resolved, first][0], required)
 
 
-def _own(leaf: Leaf, name: str, state: State) -> FieldView:
+def _own(leaf: Leaf, name: str, state: FormState) -> FieldView:
     """Return the view of a field that has no alternative fields.
 
     The view of a matrix contains a view of each element.
@@ -340,7 +340,7 @@ def _own(leaf: Leaf, name: str, state: State) -> FieldView:
     return replace(whole, elements=elements, kind="matrix")
 
 
-def field_view(leaf: Leaf, name: str, state: State) -> FieldView:
+def field_view(leaf: Leaf, name: str, state: FormState) -> FieldView:
     """Return the view of a field; `name` is the path of the field with the indices of lists."""
     text, value = state.texts.get(name, ""), state.resolved.get(name, leaf.default)
     options = _options(leaf, text, value)
@@ -360,7 +360,7 @@ def field_view(leaf: Leaf, name: str, state: State) -> FieldView:
         help=_help(leaf, assumed=name in state.assumed),
         fault=state.faults.get(name),
         excludes=excluded(name, leaf),
-        reference=row_address("Requests", state.endpoint, leaf.path),
+        reference=row_address(state.endpoint, leaf.path),
         empty=words(cited(rule).replace("`", "")),
     )
 

@@ -25,7 +25,7 @@ from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.examples import examples
 from app.manual import FIELDS, NAMES, Chapter, chapters
 from app.manual.equations import anchor, equations, functions
-from app.manual.fields import COLUMNS, SECTIONS, entries
+from app.manual.fields import COLUMNS, SECTIONS, Models, table
 from app.manual.results import place_of
 from app.pages.query import Pairs, link, pairs_of
 from app.pages.templating import example_link, model_of, page_path, rendered
@@ -56,13 +56,17 @@ def contents_page(root: str) -> str:
 def chapter_page(root: str, name: str) -> str:
     """Return the page of a chapter."""
     chapter, following = chapters()[name], chapters().get(dict(pairwise(NAMES)).get(name, ""))
-    if name == FIELDS:
-        head = _html(chapter.text.partition("\n## ")[0], root)
-        table = {"sections": SECTIONS, "columns": COLUMNS, "entries": entries()}
-        return rendered("manual_fields.html", root, chapter=chapter, body=head, **table)
     body = _html(chapter.text, root, name)
     lists: dict[str, Any] = {"headings": headings(chapter), "symbols": symbols_of(chapter)}
     return rendered("manual.html", root, chapter=chapter, body=body, following=following, **lists)
+
+
+@lru_cache(maxsize=4)
+def fields_page(root: str, others: Models) -> str:
+    """Return the page with the table of all fields; `others`: see `app.manual.fields.table`."""
+    chapter = chapters()[FIELDS]
+    content = {"sections": SECTIONS, "columns": COLUMNS, "entries": table(others)}
+    return rendered("manual_fields.html", root, chapter=chapter, body=_html(chapter.text, root), **content)
 
 
 @lru_cache(maxsize=4)

@@ -11,7 +11,7 @@ from app.manual import chapters
 from app.models.card import Card
 from app.pages.form import title_of
 from app.pages.query import link, pairs_of
-from app.pages.study_kinds import study_page
+from app.pages.studies.spectrum import address_of
 from app.pages.study_links import studies_of
 from app.pages.templating import by_model, example_link, examples_of, model_of, page_path, rendered
 from app.schema.fields import leaf_at
@@ -93,7 +93,6 @@ def _stage(stage: dict[str, Any], file: dict[str, str]) -> dict[str, Any]:
     ratio = teeth[1] / teeth[0] if all(teeth) else None
     torque, speed = load.get("pinion_torque_n_m"), load.get("pinion_speed_rpm")
     speeds = (speed, speed / ratio if speed and ratio else None)
-    spectrum = study_page("spectrum")
     cases = []
     for case in stage["cases"]:
         overrides = case["overrides"]
@@ -121,7 +120,7 @@ def _stage(stage: dict[str, Any], file: dict[str, str]) -> dict[str, Any]:
             "spectra": [
                 (
                     BY_PATH[path].title,
-                    spectrum.address_of(BY_PATH[path], pairs_of(requests[path]), {"cases": lines}, file),
+                    address_of(BY_PATH[path], pairs_of(requests[path]), {"cases": lines}, file),
                 )
                 for path, lines in stage["spectra"].items()
                 if BY_PATH[path].words.scuffing

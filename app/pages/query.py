@@ -10,7 +10,7 @@ from urllib.parse import parse_qsl, urlencode
 
 from app.errors import Unreadable, printable
 from app.figures.wording import difference_unit
-from app.pages.study_kinds import control_names
+from app.pages.study_kinds import CASES, CORNER, control_names
 from app.pages.typed import (
     as_typed,
     in_link,
@@ -26,9 +26,6 @@ from app.schema.model import Documented
 
 Pairs = list[tuple[str, str]]
 
-# Some controls of studies have values that are not single numbers. `CORNER` is the start of the name of a control that
-# lists the values of an uncertain input. `CASES` is the name of the control with the table of cases.
-CORNER, CASES = "corner.", "cases"
 REPORT_NAMES = {
     "title": 200,
     "project": 200,

@@ -14,7 +14,7 @@ from unicodedata import category
 
 from app.errors import Unprocessable
 from app.manual import Chapter, chapters
-from app.pages.cases import Asked, Case
+from app.pages.cases import Asked, SolvedCase
 from app.pages.manual import chapter_of, method_of, symbols_of
 from app.pages.query import REPORT_NAMES, Pairs
 from app.pages.results import flattened, resolved, texts_of
@@ -42,7 +42,7 @@ class Cell(NamedTuple):
     origin: str
 
 
-class Row(NamedTuple):
+class InputRow(NamedTuple):
     """A line in the table of a section's inputs: one input, with a cell for each item of the section.
 
     `cells` maps the index of an item to the cell of this item. A section that is not a list has one item, with index 0.
@@ -52,7 +52,7 @@ class Row(NamedTuple):
     cells: dict[int, Cell]
 
 
-class Section(NamedTuple):
+class ReportSection(NamedTuple):
     """A section of the request: its title, the indices of its items, and the lines of its inputs.
 
     A section that is not a list has a single item with index 0.
@@ -60,7 +60,7 @@ class Section(NamedTuple):
 
     title: str
     items: list[int]
-    rows: list[Row]
+    rows: list[InputRow]
 
 
 GIVEN = frozenset({"given"})
@@ -68,7 +68,7 @@ STATED = GIVEN | {"assumed", "derived"}
 """Origins of the inputs that the tables show. Below the tables, a text lists the inputs of other origins."""
 
 
-def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
+def context(asked: Asked, case: SolvedCase, host: str) -> dict[str, Any]:
     """Return the variables that the template needs in addition to the variables of the result.
 
     The link to the case is relative if `host` is empty. Raises Unprocessable if a name or note is too long.
@@ -95,7 +95,7 @@ def context(asked: Asked, case: Case, host: str) -> dict[str, Any]:
     }
 
 
-def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Section]:
+def _with_origin(sections: list[ReportSection], origins: frozenset[str]) -> list[ReportSection]:
     """Return the sections with only the inputs whose origin is in `origins`; leave out sections without such inputs."""
     chosen = (
         section._replace(rows=[row for row in section.rows if not origins.isdisjoint(_origins(row.cells))])
@@ -104,7 +104,7 @@ def _with_origin(sections: list[Section], origins: frozenset[str]) -> list[Secti
     return [section for section in chosen if section.rows]
 
 
-def _left(sections: list[Section]) -> list[tuple[str, list[tuple[Leaf, str, bool]]]]:
+def _left(sections: list[ReportSection]) -> list[tuple[str, list[tuple[Leaf, str, bool]]]]:
     """Return, for every section, its title and the inputs that have their default value or no value.
 
     Sections without such inputs are left out. Every input comes with a text and a boolean. If the boolean is True, the
@@ -125,7 +125,7 @@ def _origins(cells: dict[int, Cell]) -> set[str]:
     return {cell.origin for cell in cells.values()}
 
 
-def _chapters_behind(case: Case) -> list[Chapter]:
+def _chapters_behind(case: SolvedCase) -> list[Chapter]:
     """Return the chapter about the calculation, and the chapters about the optional sections of the answer."""
     present = (name for name in type(case.response).model_fields if getattr(case.response, name) is not None)
     sections = [SECTION_CHAPTERS.get(name, name) for name in present]
@@ -144,13 +144,13 @@ def _said(name: str, text: str, longest: int) -> str:
     return "\n".join("".join(letter for letter in line if category(letter) not in {"Cc", "Cf"}) for line in lines)
 
 
-def for_shell(address: str, case: Case) -> str:
+def for_shell(address: str, case: SolvedCase) -> str:
     """Return a curl command that asks for a case again; `address` is the address of the service."""
     sent = shlex.quote(json.dumps(_given(case)))
     return f"curl -s {address}{case.calculation.path} -H 'Content-Type: application/json' -d {sent}"
 
 
-def for_python(address: str, case: Case) -> str:
+def for_python(address: str, case: SolvedCase) -> str:
     """Return a program that asks the service at `address` for a case and prints the status of the answer."""
     method = case.calculation.path.rpartition("/")[2].replace("-", "_")
     return (
@@ -161,17 +161,17 @@ def for_python(address: str, case: Case) -> str:
     )
 
 
-def body_of(case: Case) -> str:
+def body_of(case: SolvedCase) -> str:
     """Return the fields that the user has given, as a JSON text."""
     return json.dumps(_given(case))
 
 
-def _given(case: Case) -> dict[str, Any]:
+def _given(case: SolvedCase) -> dict[str, Any]:
     """Return the fields that the user has given. All other fields have their defaults."""
     return case.request.model_dump(exclude_unset=True, exclude={"detail"})
 
 
-def _inputs(case: Case, pairs: Pairs) -> list[Section]:
+def _inputs(case: SolvedCase, pairs: Pairs) -> list[ReportSection]:
     """Return the inputs by section. Each input has the value that was used, and the origin of this value.
 
     An input without a value has a text instead of the value, or is left out if there is no such text.
@@ -179,7 +179,7 @@ def _inputs(case: Case, pairs: Pairs) -> list[Section]:
     typed = {_element.sub("", name) for name, _ in pairs}
     assumed = {assumption.field: assumption.value for assumption in case.response.assumptions}
     used = resolved(case.response) | assumed
-    sections: dict[str, dict[str, Row]] = {}
+    sections: dict[str, dict[str, InputRow]] = {}
     for path, stated in flattened(case.response.inputs).items():
         leaf, value = leaf_at(type(case.request), path), used[path]
         if leaf is None or (value is None and (leaf.exclusive or not leaf.declared.default_text)):
@@ -196,8 +196,8 @@ def _inputs(case: Case, pairs: Pairs) -> list[Section]:
             " · ".join(str(int(part) + 1) if part.isdecimal() else part.replace("_", " ") for part in section)
             or "general"
         )
-        sections.setdefault(title, {}).setdefault(name, Row(leaf, {})).cells[index] = cell
+        sections.setdefault(title, {}).setdefault(name, InputRow(leaf, {})).cells[index] = cell
     return [
-        Section(title, sorted({index for row in rows.values() for index in row.cells}), [*rows.values()])
+        ReportSection(title, sorted({index for row in rows.values() for index in row.cells}), [*rows.values()])
         for title, rows in sections.items()
     ]

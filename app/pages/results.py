@@ -35,7 +35,7 @@ class Entry(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class ResultRow:
     """A row of a table: a single value, or the items of a list.
 
     `before` holds the items of the variant, and `change` is the change from the variant to the case. `remark` is the
@@ -93,13 +93,13 @@ def values_by_path(response: Documented | None) -> dict[str, Any]:
     return {entry.path: entry.value for entry in entries(response)} if response is not None else {}
 
 
-def groups(response: Documented, before: Documented | None = None) -> dict[str, list[Row]]:
+def groups(response: Documented, before: Documented | None = None) -> dict[str, list[ResultRow]]:
     """Return a table of scalars and short lists for each group of an answer. The keys are the titles of the groups.
 
     `before` is the answer of the variant. If `before` is given, each row also has the value of the variant.
     """
     old, remarks = values_by_path(before), words_of(response).remarks(response)
-    tables: dict[str, list[Row]] = {}
+    tables: dict[str, list[ResultRow]] = {}
     for group, leaf, path, value in entries(response):
         if ITEM in leaf.path and leaf.detail != "summary":  # a long list, which a figure shows
             continue
@@ -109,7 +109,7 @@ def groups(response: Documented, before: Documented | None = None) -> dict[str, 
     return tables
 
 
-def differences(request: type[Documented], response: Response, before: Response) -> list[Row]:
+def differences(request: type[Documented], response: Response, before: Response) -> list[ResultRow]:
     """Return the inputs that differ between a case and its variant.
 
     If an input is empty, the value that was used for this input is shown.
@@ -123,7 +123,7 @@ def differences(request: type[Documented], response: Response, before: Response)
     ]
 
 
-def assumptions(request: type[Documented], response: Response) -> list[Row]:
+def assumptions(request: type[Documented], response: Response) -> list[ResultRow]:
     """Return the inputs for which the answer uses a default of this project, with the reason for each default."""
     return [
         replace(_row(leaf, assumption.field, assumption.value, label=leaf.title), remark=assumption.reason)
@@ -132,13 +132,13 @@ def assumptions(request: type[Documented], response: Response) -> list[Row]:
     ]
 
 
-def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, digits: int = 5) -> Row:
+def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, digits: int = 5) -> ResultRow:
     unit = leaf.unit or ""
     if leaf.view.percent:
         now, before, unit = (None if now is None else 100.0 * now, None if before is None else 100.0 * before, "%")
     unit_of_value = unit if now is not None or before is not None else ""
     items, old = (_named(leaf, texts_of(value, digits)) for value in (now, before))
-    return Row(leaf, label, path, items, unit_of_value, old, _change(now, before, unit))
+    return ResultRow(leaf, label, path, items, unit_of_value, old, _change(now, before, unit))
 
 
 def _named(leaf: Leaf, items: tuple[str, ...]) -> tuple[str, ...]:
@@ -150,7 +150,7 @@ def _named(leaf: Leaf, items: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(map(" ".join, zip(names, items, strict=True))) if len(names) == len(items) > 1 else items
 
 
-def row_of(leaf: Leaf, path: str, value: Any = None, digits: int = DIGITS) -> Row:
+def row_of(leaf: Leaf, path: str, value: Any = None, digits: int = DIGITS) -> ResultRow:
     """Return the row of a table for a single value."""
     return _row(leaf, path, value, label=leaf.title, digits=digits)
 
@@ -206,7 +206,7 @@ def resolved(response: Response) -> dict[str, Any]:
     }
 
 
-def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> list[Row]:
+def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> list[ResultRow]:
     """Return one headline number for each rank, sorted by rank.
 
     If several numbers have the same rank, only the number with the worst verdict from `verdicts` is returned. If this

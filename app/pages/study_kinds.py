@@ -1,48 +1,77 @@
-"""The kinds of study. Each module of `app.studies.kinds` describes one kind; `PAGE` in the module is the page class.
+"""The kinds of study as all pages know them: the links to their pages, and the names of their controls in a query.
 
-The modules are imported when `study_pages` is called for the first time. An import at the top of this file would be
-circular: all pages have links to studies, and the pages of studies consist of parts of other pages.
+The pages themselves, in `app.pages.studies`, consist of parts of other pages.
 """
 
-import pkgutil
+from collections.abc import Iterable
 from functools import cache
-from importlib import import_module
-from typing import Any, NamedTuple
+from itertools import product
+from typing import NamedTuple
 
-from app.studies import kinds as package
+from app.studies.requests import DRIVE_TRAIN
+
+UNCERTAIN = ("wall response", "pinion clearance", "wheel clearance", "friction", "offset", "thrust fraction")
+"""The inputs of a gear unit that can be uncertain."""
+# Some controls have values that are not single numbers.
+CORNER = "corner."  # start of the name of a control that lists the values of an uncertain input
+CASES = "cases"  # name of the control with the table of cases
 
 
 class StudyLink(NamedTuple):
-    """A link to the page of a kind of study.
+    """A link to the page of a kind of study."""
 
-    `name` is the last part of the address, `label` is the text of the link, `hint` is the description of the study, and
-    `place` is the position among the links. `endpoint` is the only endpoint whose cases have this study. If `endpoint`
-    is None, the cases of all endpoints have this study.
-    """
-
-    name: str
-    label: str
-    hint: str
-    place: int
-    endpoint: str | None = None
+    name: str  # last part of the address
+    label: str  # text of the link
+    hint: str  # what the study does
+    controls: frozenset[str] = frozenset()  # names of the controls of the page, except the menu of outputs
+    endpoint: str | None = None  # the only endpoint whose cases have this study; None: all endpoints
 
 
-@cache
-def study_pages() -> tuple[type[Any], ...]:
-    """Return the page classes of all kinds of study, in the order in which pages show the links to the studies.
-
-    A page class is a subclass of `StudyPage`.
-    """
-    modules = (import_module(f"{package.__name__}.{module.name}") for module in pkgutil.iter_modules(package.__path__))
-    return tuple(sorted((module.PAGE for module in modules), key=lambda page: page.link.place))
+def control_of(quantity: str) -> str:
+    """Return the name of the form control for an uncertain input."""
+    return f"{CORNER}{quantity.replace(' ', '_')}"
 
 
-def study_page(name: str) -> type[Any]:
-    """Return the page class of a kind of study; `name` is the last part of the address of its page."""
-    return next(page for page in study_pages() if page.link.name == name)
+def _named(beginnings: Iterable[str], ends: Iterable[str]) -> frozenset[str]:
+    return frozenset(map("".join, product(beginnings, ends)))
+
+
+AXES = ("x", "y")
+"""Names of the axes of a sweep in the form."""
+TOLERANCES = tuple(f"t{place}" for place in range(12))
+"""Names of the tolerances of a load spectrum in the form; no more are possible."""
+VARY = StudyLink(
+    "vary",
+    "Vary",
+    "one input or two over a range: a curve or a map",
+    _named(AXES, ("", ".from", ".to", ".count", ".scale")) | {"best"},
+)
+INFLUENCE = StudyLink("influence", "What matters", "every input moved by its tolerance: which moves the result most")
+SPECTRUM = StudyLink(
+    "spectrum",
+    "Load spectrum",
+    "cases and tolerances: the probability of exceeding a limit, and the mean losses",
+    _named(TOLERANCES, ("", ".law", ".about", ".by")) | {CASES, "machines", "hours", "limit", "limit.side", "limit.by"},
+)
+CORNERS = StudyLink(
+    "corners",
+    "Worst corner",
+    "every combination of the uncertain inputs: where the result is worst",
+    frozenset(map(control_of, UNCERTAIN)),
+    DRIVE_TRAIN,
+)
+DESIGN = StudyLink(
+    "design",
+    "What to grind",
+    "the flank correction whose worst corner is best",
+    CORNERS.controls | _named(("low.", "high."), "012") | {"trials"},
+    DRIVE_TRAIN,
+)
+LINKS = (VARY, INFLUENCE, SPECTRUM, CORNERS, DESIGN)
+"""The links in the order in which pages show them."""
 
 
 @cache
 def control_names() -> frozenset[str]:
     """Return the names of all controls of studies. In a query, these names do not belong to fields of a case."""
-    return frozenset().union({"show"}, *(page.names for page in study_pages()))
+    return frozenset({"show"}).union(*(link.controls for link in LINKS))

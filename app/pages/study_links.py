@@ -1,4 +1,4 @@
-"""Links to the pages of studies: the studies of a case, and ready studies, which vary one or two fields of an example.
+"""The studies of a case, and ready studies, which vary one or two fields of an example.
 
 The ready studies are the entries of `sweep_examples.json`.
 """
@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from app.calculations import BY_PATH, Calculation
 from app.examples import examples
 from app.pages.query import Pairs, link, pairs_of
-from app.pages.study_kinds import StudyLink, study_pages
+from app.pages.study_kinds import LINKS, VARY, StudyLink
 from app.pages.templating import page_path
 from app.schema.fields import leaf_at
 from app.studies.fields import value_at
@@ -22,12 +22,7 @@ AROUND = (0.5, 1.5)  # ends of the range in which a derived value is varied, as 
 
 def study_links(calculation: Calculation) -> tuple[StudyLink, ...]:
     """Return one link for each kind of study that can be run with the cases of a calculation."""
-    links: tuple[StudyLink, ...] = tuple(page.link for page in study_pages())
-    return tuple(study for study in links if study.endpoint in {None, calculation.path})
-
-
-VARY = "vary"
-"""Last part of the address of the page on which ready studies run."""
+    return tuple(study for study in LINKS if study.endpoint in {None, calculation.path})
 
 
 class StudyExample(NamedTuple):
@@ -47,7 +42,7 @@ class StudyExample(NamedTuple):
     def address(self) -> str:
         """The address of the page that answers the question."""
         request = examples()[self.example].request
-        return link(f"{page_path(self.calculation)}/{VARY}", pairs_of(request), **self.study)
+        return link(f"{page_path(self.calculation)}/{VARY.name}", pairs_of(request), **self.study)
 
 
 class Starter(NamedTuple):
@@ -86,7 +81,7 @@ def studies_of_case(
     - If the case states zero, or if the field has options and is empty, the range of the example is used.
     - Otherwise the list contains no link to the study.
     """
-    address, starters = f"{page_path(calculation)}/{VARY}", []
+    address, starters = f"{page_path(calculation)}/{VARY.name}", []
     for example in studies_of(calculation):
         study = dict(example.study)
         axes = [axis for axis in "xy" if axis in study]

@@ -5,9 +5,9 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 from app.calculations import BY_PATH
-from app.pages.cases import REFUSED, Asked, Case, faults_of, solved
+from app.pages.cases import REFUSED, Asked, SolvedCase, faults_of, solved
 from app.pages.query import Pairs, normalised, pairs_of_query, split_views
-from app.pages.results import DIGITS, Row, resolved, row_of, values_by_path
+from app.pages.results import DIGITS, ResultRow, resolved, row_of, values_by_path
 from app.schema.fields import headlines, leaf_at
 
 SEPARATOR = "|"
@@ -17,7 +17,7 @@ NAMES = "BCDEFG"
 KEPT = 64  # number of variants whose inputs and results a worker keeps
 
 
-class Column(NamedTuple):
+class VariantColumn(NamedTuple):
     """A variant of a case: its name, its address, its inputs and its results.
 
     If the variant has no values, `trouble` says why.
@@ -30,19 +30,19 @@ class Column(NamedTuple):
     trouble: str = ""
 
 
-class Line(NamedTuple):
+class VariantRow(NamedTuple):
     """One row of the table of variants: a quantity, and one text for each variant."""
 
-    row: Row
+    row: ResultRow
     texts: list[str]
 
 
 class Variants(NamedTuple):
     """The table of the variants. Each variant is a column; each input and each result is a row."""
 
-    columns: list[Column]
-    inputs: list[Line]
-    results: list[Line]
+    columns: list[VariantColumn]
+    inputs: list[VariantRow]
+    results: list[VariantRow]
 
 
 def queries_of(asked: Asked) -> list[str]:
@@ -59,7 +59,7 @@ def with_this(asked: Asked) -> str:
     return SEPARATOR.join([*queries, asked.query]) if len(queries) < MOST and asked.query not in queries else ""
 
 
-def variants_of(asked: Asked, case: Case, first: Case | None) -> Variants | None:
+def variants_of(asked: Asked, case: SolvedCase, first: SolvedCase | None) -> Variants | None:
     """Return one table with the first variant, the further variants and the case.
 
     Return None if there is no first variant or no further variant.
@@ -74,12 +74,12 @@ def variants_of(asked: Asked, case: Case, first: Case | None) -> Variants | None
     return _table(asked, columns)
 
 
-def _of_query(name: str, asked: Asked, query: str) -> Column:
+def _of_query(name: str, asked: Asked, query: str) -> VariantColumn:
     try:
         inputs, results = _numbers(asked.path, query)
     except REFUSED as error:
-        return Column(name, f"{asked.path}?{query}", {}, {}, faults_of(error, asked.calculation)[0].message)
-    return Column(name, f"{asked.path}?{query}", inputs, results)
+        return VariantColumn(name, f"{asked.path}?{query}", {}, {}, faults_of(error, asked.calculation)[0].message)
+    return VariantColumn(name, f"{asked.path}?{query}", inputs, results)
 
 
 @lru_cache(maxsize=KEPT)
@@ -94,11 +94,11 @@ def _numbers(path: str, query: str) -> tuple[dict[str, Any], dict[str, Any]]:
     return resolved(response), values_by_path(response)
 
 
-def _column(name: str, asked: Asked, query: str, case: Case) -> Column:
-    return Column(name, f"{asked.path}?{query}", resolved(case.response), values_by_path(case.response))
+def _column(name: str, asked: Asked, query: str, case: SolvedCase) -> VariantColumn:
+    return VariantColumn(name, f"{asked.path}?{query}", resolved(case.response), values_by_path(case.response))
 
 
-def _table(asked: Asked, columns: list[Column]) -> Variants:
+def _table(asked: Asked, columns: list[VariantColumn]) -> Variants:
     """Return the table of the inputs that differ between variants, and of all headline numbers."""
     filled = [column for column in columns if not column.trouble]
     request, response = asked.calculation.request, asked.calculation.response
@@ -108,10 +108,10 @@ def _table(asked: Asked, columns: list[Column]) -> Variants:
     results = [row_of(leaf, leaf.path) for leaf in headlines(response)]
     return Variants(
         columns,
-        [Line(row, _texts(row, (column.inputs for column in columns))) for row in inputs],
-        [Line(row, _texts(row, (column.results for column in columns))) for row in results],
+        [VariantRow(row, _texts(row, (column.inputs for column in columns))) for row in inputs],
+        [VariantRow(row, _texts(row, (column.results for column in columns))) for row in results],
     )
 
 
-def _texts(row: Row, columns: Iterable[dict[str, Any]]) -> list[str]:
+def _texts(row: ResultRow, columns: Iterable[dict[str, Any]]) -> list[str]:
     return [row_of(row.leaf, row.path, values.get(row.path), digits=DIGITS + 1).value for values in columns]

@@ -10,9 +10,9 @@ from app.figures import Format, written
 from app.pages import csv
 from app.pages import report as reports
 from app.pages.carried import subject_of, uses
-from app.pages.cases import REFUSED, Asked, Case, Fault, faults_of, key_of, solved
+from app.pages.cases import REFUSED, Asked, FormFault, SolvedCase, faults_of, key_of, solved
 from app.pages.charts import figure_of, figures_of, linked, values_of
-from app.pages.form import State, form
+from app.pages.form import FormState, form
 from app.pages.manual import chapter_of
 from app.pages.query import Pairs, excluded, link
 from app.pages.results import assumptions, cards, conclusion, differences, groups, resolved
@@ -43,13 +43,13 @@ def page(asked: Asked) -> Shown:
     except REFUSED as error:
         faults = _asked_back(asked.pairs, faults_of(error, asked.calculation))
         said = {path: "; ".join(fault.message for fault in faults if fault.path == path) for path, _ in faults}
-        return _page(asked, State(texts, said), 400 if isinstance(error, Unreadable) else 422, faults=faults)
+        return _page(asked, FormState(texts, said), 400 if isinstance(error, Unreadable) else 422, faults=faults)
     response = case.response
     asked = replace(asked, answered=(response.case, variant.response.case if variant else ""))
     answer = _answered(asked, case, variant, trouble)
     return _page(
         asked,
-        State(texts, {}, resolved(response), {assumption.field for assumption in response.assumptions}),
+        FormState(texts, {}, resolved(response), {assumption.field for assumption in response.assumptions}),
         keep=_keep(asked, case, variant),
         **answer,
         charts=[linked(declaration, figure, asked) for declaration, figure in answer["figures"]],
@@ -65,7 +65,7 @@ def page(asked: Asked) -> Shown:
 
 def form_page(asked: Asked) -> Shown:
     """Return the page with the form as it was filled in, without an answer."""
-    return _page(asked, State({name: as_typed(text) for name, text in asked.pairs}))
+    return _page(asked, FormState({name: as_typed(text) for name, text in asked.pairs}))
 
 
 def _deciding(calculation: Calculation) -> frozenset[str]:
@@ -121,17 +121,17 @@ def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Show
     return Shown(content.encode(), keep=_keep(asked, case, variant))
 
 
-def _asked_back(pairs: Pairs, faults: list[Fault]) -> list[Fault]:
+def _asked_back(pairs: Pairs, faults: list[FormFault]) -> list[FormFault]:
     """Return the faults; if the text of a field has two readings, replace the faults of this field by a question.
 
     The question asks the user which reading of the text is meant.
     """
     asked = {name: question(text) for name, text in pairs if question(text)}
     named = ((next((name for name in asked if f"{fault.path}.".startswith(f"{name}.")), ""), fault) for fault in faults)
-    return [*dict.fromkeys(Fault(name, asked[name]) if name else fault for name, fault in named)]
+    return [*dict.fromkeys(FormFault(name, asked[name]) if name else fault for name, fault in named)]
 
 
-def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, bytes]:
+def _keep(asked: Asked, case: SolvedCase, variant: SolvedCase | None = None) -> dict[str, bytes]:
     """Return the answers that the service shall store, under their keys.
 
     The answer of the case, or of the variant, is returned if the service has not stored this answer yet; `key_of` makes
@@ -147,7 +147,9 @@ def _keep(asked: Asked, case: Case, variant: Case | None = None) -> dict[str, by
     return keep
 
 
-def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] | None = None, **answer: Any) -> Shown:
+def _page(
+    asked: Asked, state: FormState, status: int = 200, keep: dict[str, bytes] | None = None, **answer: Any
+) -> Shown:
     calculation = asked.calculation
     context = {"faults": [], "response": None, "compared": False, "cards": (), "trouble": "", **answer}
     content = rendered(
@@ -167,7 +169,9 @@ def _page(asked: Asked, state: State, status: int = 200, keep: dict[str, bytes] 
     return Shown(content.encode(), status, keep or {})
 
 
-def _answered(asked: Asked, case: Case, variant: Case | None, trouble: str, *, compute: bool = False) -> dict[str, Any]:
+def _answered(
+    asked: Asked, case: SolvedCase, variant: SolvedCase | None, trouble: str, *, compute: bool = False
+) -> dict[str, Any]:
     """Return the template's variables for the answer of a case and for the comparison of the case with the variant.
 
     `trouble` says why the variant cannot be computed.
@@ -209,7 +213,7 @@ def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
     return pages
 
 
-def _both(asked: Asked) -> tuple[Case, Case | None, str]:
+def _both(asked: Asked) -> tuple[SolvedCase, SolvedCase | None, str]:
     """Return the case, the variant for comparison with the case, and the reason why the variant cannot be computed.
 
     The variant is None if the query names no variant, or if the variant cannot be computed. The reason is empty if the

@@ -1,4 +1,4 @@
-"""Reading of a REXS file into a `Model`, and writing of the file with new attributes.
+"""Reading of a REXS file into a `RexsUnit`, and writing of the file with new attributes.
 
 A file is XML, JSON, or a zip archive with one XML or JSON file. The file may come from anybody. Therefore the options
 of lxml forbid entities, external files and deep nesting. The number of tags and attributes is checked before the parser
@@ -20,7 +20,7 @@ import numpy as np
 from lxml import etree
 
 from app.errors import Unprocessable
-from app.rexs.model import Attribute, Component, LoadCase, Model, Relation
+from app.rexs.model import Attribute, Component, LoadCase, Relation, RexsUnit
 
 MOST_ELEMENTS = 1_500_000  # XML tags and attributes, or JSON objects and arrays; about 200 bytes of memory for each
 VERSIONS = ("1", "2")
@@ -49,7 +49,7 @@ class Document(NamedTuple):
     """An unpacked file and the model in it."""
 
     file: File
-    model: Model
+    model: RexsUnit
 
 
 def read(content: bytes, most_bytes: int) -> Document:
@@ -116,7 +116,7 @@ def _model(
     components: list[Component],
     relations: Iterable[Relation],
     load_cases: Iterable[LoadCase],
-) -> Model:
+) -> RexsUnit:
     version = str(version or "").strip()
     if version.split(".")[0] not in VERSIONS:
         raise not_rexs("the version of the model is not 1.x or 2.x" if version else "the model states no version")
@@ -125,7 +125,7 @@ def _model(
         if component.id in by_id:
             raise not_rexs(f"component {component.id} occurs twice")
         by_id[component.id] = component
-    return Model(version[:20], " ".join(filter(None, application)), by_id, tuple(relations), tuple(load_cases))
+    return RexsUnit(version[:20], " ".join(filter(None, application)), by_id, tuple(relations), tuple(load_cases))
 
 
 def _numbers(code: object, text: object) -> list[Any] | None:
@@ -138,7 +138,7 @@ def _numbers(code: object, text: object) -> list[Any] | None:
     return numbers
 
 
-def _model_of_xml(content: bytes) -> Model:
+def _model_of_xml(content: bytes) -> RexsUnit:
     """Read the model from XML, element by element, so that the whole tree of a large file is never in memory."""
     if content.count(b"<") + content.count(b"=") > MOST_ELEMENTS:
         raise not_rexs(f"the file has more than {MOST_ELEMENTS} tags and attributes")
@@ -237,7 +237,7 @@ def _xml_with(content: bytes, component: int, attributes: Iterable[Attribute]) -
     return bytes(etree.tostring(root.getroottree(), xml_declaration=True, encoding="UTF-8"))
 
 
-def _model_of_json(content: bytes) -> Model:
+def _model_of_json(content: bytes) -> RexsUnit:
     if content.count(b"{") + content.count(b"[") > MOST_ELEMENTS:
         raise not_rexs(f"the file has more than {MOST_ELEMENTS} objects and arrays")
     try:

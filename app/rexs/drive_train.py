@@ -23,7 +23,7 @@ STANDARD_GRAVITY = 9.80665  # m/s^2
 NAMES = ("pinion_shaft", "wheel_shaft")
 
 
-class Section(NamedTuple):
+class ShaftSection(NamedTuple):
     """A cylindrical section of a shaft: the positions of both ends along Z, the outer and the inner diameter [mm]."""
 
     begin: float
@@ -180,7 +180,7 @@ class _DriveTrain:
         self._torque_position(shaft, f"{name}.torque_position_mm")
         return True
 
-    def _sections(self, shaft: Component) -> list[Section]:
+    def _sections(self, shaft: Component) -> list[ShaftSection]:
         """Return the sections of a shaft.
 
         Each cone is replaced by short cylinders. The diameters of a cylinder are the diameters of the cone at the
@@ -209,15 +209,15 @@ class _DriveTrain:
                 share = (piece + 0.5) / pieces
                 low, high = sorted(base + sense * (begin + length * edge / pieces) for edge in (piece, piece + 1))
                 diameters = outer + share * (end_outer - outer), inner + share * (end_inner - inner)
-                cylinders.append(Section(low, high, *diameters))
+                cylinders.append(ShaftSection(low, high, *diameters))
         return self._contiguous(sorted(cylinders), shaft)
 
-    def _contiguous(self, sections: list[Section], shaft: Component) -> list[Section]:
+    def _contiguous(self, sections: list[ShaftSection], shaft: Component) -> list[ShaftSection]:
         """Move the ends of the sections so that there are no gaps and no overlaps.
 
         Gaps and overlaps in the file are recorded as findings.
         """
-        joined: list[Section] = []
+        joined: list[ShaftSection] = []
         for section in sections:
             here = joined[-1].end if joined else section.begin
             if abs(section.begin - here) > SHORTEST_SECTION:
@@ -228,7 +228,7 @@ class _DriveTrain:
                 joined.append(section._replace(begin=here))
         return joined
 
-    def _under_teeth(self, place: int, sections: list[Section], face_start: float) -> list[Section]:
+    def _under_teeth(self, place: int, sections: list[ShaftSection], face_start: float) -> list[ShaftSection]:
         """Enlarge the sections under the teeth to the diameter that carries torsion, d - m h_fP*."""
         gear, width = self._stage.involute(place), self._stage.fields.get(table.FACE_WIDTH.field)
         if gear is None or width is None:
@@ -243,7 +243,7 @@ class _DriveTrain:
                 grown = covered and outer < solid
                 changed |= grown
                 if high - low >= SHORTEST_SECTION:
-                    cylinders.append(Section(low, high, solid if grown else outer, inner))
+                    cylinders.append(ShaftSection(low, high, solid if grown else outer, inner))
         if changed:
             reason = "under the teeth the shaft has the diameter that carries torsion, d - m h_fP*"
             self._stage.note(f"{NAMES[place]}.sections", solid, reason)

@@ -14,7 +14,7 @@ from app.rexs.reading import Reading
 APEX = 1e-3  # a bevel gear nearer to the apex than this share of its distance from the other shaft says nothing
 
 
-class Link(NamedTuple):
+class SpeedLink(NamedTuple):
     """Two shafts whose speeds are in a fixed ratio: n_1 z_1 = -n_2 z_2, about the axis of the unit.
 
     The numbers z are signed. They are numbers of teeth, or a sum of numbers of teeth at a planet carrier. `reason`
@@ -92,7 +92,7 @@ class Groups:
         return False
 
 
-def links(reading: Reading, groups: Groups) -> Iterator[Link]:
+def links(reading: Reading, groups: Groups) -> Iterator[SpeedLink]:
     """Yield the stages of other kinds through which speed and torque can be followed."""
     for stage in reading.model.by_type["bevel_stage"]:
         if (link := _bevel(reading, stage)) is not None:
@@ -124,7 +124,7 @@ def _teeth(reading: Reading, gear: Component) -> int | None:
     return int(abs(number)) if number is not None and number == int(number) and 1 <= abs(number) <= 10_000 else None
 
 
-def _bevel(reading: Reading, stage: Component) -> Link | None:
+def _bevel(reading: Reading, stage: Component) -> SpeedLink | None:
     relation = next(iter(reading.model.relations_of("stage", "stage", stage.id)), None)
     gears = [reading.model.part(relation, role) if relation else None for role in ("gear_1", "gear_2")]
     first, second = gears
@@ -138,7 +138,7 @@ def _bevel(reading: Reading, stage: Component) -> Link | None:
     reason = f"followed through the teeth of the bevel stage {stage.id}; its losses are neglected"
     if sense is None:
         reason += ", and its sense of rotation is assumed, because the file does not say where its gears sit"
-    return Link(stage, (shafts[0], shafts[1]), (teeth[0], teeth[1] * (sense or 1)), reason)
+    return SpeedLink(stage, (shafts[0], shafts[1]), (teeth[0], teeth[1] * (sense or 1)), reason)
 
 
 def _bevel_sense(
@@ -168,7 +168,7 @@ def _bevel_sense(
     return int(sense)
 
 
-def _planetary(reading: Reading, stage: Component, groups: Groups) -> Link | None:
+def _planetary(reading: Reading, stage: Component, groups: Groups) -> SpeedLink | None:
     """Return the link of a simple planetary stage of which one member is held.
 
     The members are sun (z_s), ring (z_r) and carrier. About the common axis, with the speeds n (Willis):
@@ -200,7 +200,7 @@ def _planetary(reading: Reading, stage: Component, groups: Groups) -> Link | Non
     if not shafts.keys() >= {*names}:
         return None
     reason = f"followed through the planetary stage {stage.id}, whose {held} is held; its losses are neglected"
-    return Link(stage, (shafts[names[0]], shafts[names[1]]), (free[names[0]], free[names[1]]), reason)
+    return SpeedLink(stage, (shafts[names[0]], shafts[names[1]]), (free[names[0]], free[names[1]]), reason)
 
 
 def _held(reading: Reading, shafts: dict[str, Component], ring: Component, groups: Groups) -> str | None:

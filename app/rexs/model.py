@@ -66,7 +66,7 @@ class LoadCase:
 
 
 @dataclass(frozen=True)
-class Model:
+class RexsUnit:
     """A gear unit as its file describes it."""
 
     version: str

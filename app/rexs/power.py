@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from math import isfinite, nan
 from typing import NamedTuple
 
-from app.rexs.links import Groups, Link, fastened, joints, links, members_of
+from app.rexs.links import Groups, SpeedLink, fastened, joints, links, members_of
 from app.rexs.model import Component, LoadCase
 from app.rexs.reading import Reading
 from app.rexs.table import REVOLUTION_PER_MINUTE
@@ -32,11 +32,11 @@ class Pair(NamedTuple):
     teeth: tuple[int, int]
 
 
-Mesh = Pair | Link
+Mesh = Pair | SpeedLink
 
 
 @dataclass
-class Flow:
+class PowerFlow:
     """Speeds of shafts and torques of meshes, as far as these values follow from the file.
 
     `reading` reads the part of the file that states the load: the model, or one of its load cases. `speed` maps each
@@ -88,13 +88,13 @@ class Train:
         self._parts = fastened(reading, self._shafts)
         self._joints = list(joints(reading)) if self._shafts else []
 
-    def flow(self, case: LoadCase | None = None) -> Flow:
+    def flow(self, case: LoadCase | None = None) -> PowerFlow:
         """Return the speeds and torques in a load case, or in the model itself if `case` is None."""
         reading = self._reading.in_case(case)
-        return _State(reading, self._shafts, self._pairs, Groups(reading, self._parts, self._joints)).flow()
+        return _TrainState(reading, self._shafts, self._pairs, Groups(reading, self._parts, self._joints)).flow()
 
 
-class _State:
+class _TrainState:
     """The train in one load case. Speeds and torques of groups are about the axis of the unit (`Reading.sense`)."""
 
     def __init__(self, reading: Reading, shafts: list[Component], pairs: list[Pair], groups: Groups) -> None:
@@ -114,10 +114,10 @@ class _State:
         self._ends = {mesh.stage.id: (groups.of(first.id), groups.of(second.id)) for mesh, (first, second) in ends}
         self._through: dict[int, set[str]] = defaultdict(set)  # groups and stages behind links, with the reasons
 
-    def flow(self) -> Flow:
+    def flow(self) -> PowerFlow:
         reading = self._reading
         speeds = self._speeds(reading)
-        flow = Flow(reading)
+        flow = PowerFlow(reading)
         for shaft in self._shafts:
             speed = speeds.get(self._group[shaft.id], nan)
             if isfinite(speed):
@@ -177,7 +177,7 @@ class _State:
         for mesh, place in self._at[group]:
             other = self._ends[mesh.stage.id][1 - place]
             if other not in speeds:
-                self._through[other] |= self._through[group] | ({mesh.reason} if isinstance(mesh, Link) else set())
+                self._through[other] |= self._through[group] | ({mesh.reason} if isinstance(mesh, SpeedLink) else set())
                 self._spread(other, -speed * mesh.teeth[place] / mesh.teeth[1 - place], speeds)
 
     def _forces(self, speeds: dict[int, float], reading: Reading) -> dict[int, float]:
@@ -205,7 +205,7 @@ class _State:
                 continue
             forces[mesh.stage.id] = force
             for other, _ in known:
-                reasons = {other.reason} if isinstance(other, Link) else set()
+                reasons = {other.reason} if isinstance(other, SpeedLink) else set()
                 self._through[mesh.stage.id] |= self._through[other.stage.id] | reasons
             waiting.append(self._ends[mesh.stage.id][1 - place])
         return forces
@@ -237,7 +237,7 @@ class _State:
             opened = (ends - torques.keys()) or leaving
         return torques, opened
 
-    def _not_modelled(self, passing: list[Link], groups: Groups) -> set[int]:
+    def _not_modelled(self, passing: list[SpeedLink], groups: Groups) -> set[int]:
         """Return the groups that take part in stages that are not modelled. The torques of such stages are unknown."""
         model = self._reading.model
         followed = {pair.stage.id for pair in self._pairs} | {link.stage.id for link in passing}

@@ -16,7 +16,7 @@ from pydantic import BaseModel
 
 from app.calculations import BY_PATH, CALCULATIONS
 from app.errors import InvalidBody
-from app.rexs.model import Attribute, Component, LoadCase, Model
+from app.rexs.model import Attribute, Component, LoadCase, RexsUnit
 from app.rexs.table import APPLICATION_FACTOR, EXTERNAL, IGNORED, SCUFFING_FACTOR, Row, convert
 from app.schema.quantities import Output
 from app.schema.reading import validated
@@ -36,7 +36,7 @@ READABLE = {
 Vector = tuple[float, float, float]
 
 
-class Axis(NamedTuple):
+class ShaftAxis(NamedTuple):
     """A shaft's axis in the unit: its origin [mm] and its direction."""
 
     origin: Vector
@@ -46,14 +46,14 @@ class Axis(NamedTuple):
         """Return the coordinate of a point along the axis, measured from the origin of the axis [mm]."""
         return sum((a - b) * u for a, b, u in zip(point, self.origin, self.direction, strict=True))
 
-    def apart(self, other: "Axis") -> float:
+    def apart(self, other: "ShaftAxis") -> float:
         """Return the distance [mm] between this axis and the origin of the other axis."""
         along = self.along(other.origin)
         across = (a - b - along * u for a, b, u in zip(other.origin, self.origin, self.direction, strict=True))
         return sqrt(sum(part * part for part in across))
 
 
-class Number(NamedTuple):
+class FileNumber(NamedTuple):
     """The number in an attribute of the file, converted to the requested unit, and the name of the attribute."""
 
     value: float
@@ -103,7 +103,7 @@ class Reading:
     attributes of the model and of the load case have been read, as pairs of component id and attribute name.
     """
 
-    model: Model
+    model: RexsUnit
     case: LoadCase | None = None
     findings: dict[Fault, None] = field(default_factory=dict)
     used: set[tuple[int, str]] = field(default_factory=set)
@@ -145,7 +145,7 @@ class Reading:
         first = self.first_of(component, names, unit)
         return None if first is None else first.value
 
-    def first_of(self, component: Component | None, names: Iterable[str], unit: str) -> "Number | None":
+    def first_of(self, component: Component | None, names: Iterable[str], unit: str) -> "FileNumber | None":
         """Return the first number among the attributes `names` of a component, converted to `unit`.
 
         Values that are not numbers or cannot be converted are skipped. Return None if no value remains.
@@ -156,7 +156,7 @@ class Reading:
             attribute = self._attribute(component, name)
             value = None if attribute is None else self._in_unit(component, attribute, unit)
             if value is not None:
-                return Number(value, name)
+                return FileNumber(value, name)
         return None
 
     def text(self, component: Component, name: str) -> str:
@@ -201,7 +201,7 @@ class Reading:
         scale = convert(1.0, attribute.unit, "mm") or 1.0
         return x * scale, y * scale, z * scale
 
-    def axis(self, shaft: Component) -> Axis | None:
+    def axis(self, shaft: Component) -> ShaftAxis | None:
         """Return the axis of a shaft, or None if the file does not state the position of the shaft."""
         origin, direction = self.vector(shaft, "support_vector"), self.vector(shaft, "u_axis_vector")
         if origin is None:
@@ -211,7 +211,7 @@ class Reading:
         if not size > 0.0:
             self.find("axis", shaft, "u_axis_vector", "the axis has no direction")
             return None
-        return Axis(origin, (x / size, y / size, z / size))
+        return ShaftAxis(origin, (x / size, y / size, z / size))
 
     def sense(self, shaft: Component) -> float:
         """Return the direction of a shaft's u axis: +1 along the axis of the unit, -1 against the axis of the unit.

@@ -6,7 +6,7 @@ from math import acos, asin, atan, cos, degrees, pi, radians, sin, sqrt, tan
 from app.rexs import table
 from app.rexs.links import shaft_of
 from app.rexs.model import Component
-from app.rexs.power import Flow, Pair
+from app.rexs.power import Pair, PowerFlow
 from app.rexs.reading import Draft, Reading
 from solvers.gears.gear import involute
 from solvers.gears.pair import inverse_involute
@@ -82,7 +82,7 @@ class StageDraft(Draft):
     driving gear is not known. The argument `place` of the methods is 0 for the pinion and 1 for the wheel.
     """
 
-    def __init__(self, pair: Pair, flow: Flow, pinion: int | None = None) -> None:
+    def __init__(self, pair: Pair, flow: PowerFlow, pinion: int | None = None) -> None:
         """Choose the pinion.
 
         If another draft of the same stage has already chosen the pinion, `pinion` is the position of the pinion in
@@ -184,7 +184,7 @@ class StageDraft(Draft):
         """The lubricant of the stage, or the lubricant of the casing if the stage has no lubricant in the file."""
         return self.reading.model.reference_of(self.oil_origins, "lubricant")
 
-    def load(self, flow: Flow) -> dict[str, float]:
+    def load(self, flow: PowerFlow) -> dict[str, float]:
         """Return the torque and the speed of the pinion. The keys are the paths of the fields in the draft.
 
         Unknown values are left out.

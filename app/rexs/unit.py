@@ -12,9 +12,9 @@ from pydantic import BaseModel
 from app.rexs import table
 from app.rexs.drive_train import add_drive_train, bearings_of
 from app.rexs.lubrication import Lubrication
-from app.rexs.model import Component, Model
+from app.rexs.model import Component, RexsUnit
 from app.rexs.modifications import Modifications, modifications_of
-from app.rexs.power import Flow, Pair, Train
+from app.rexs.power import Pair, PowerFlow, Train
 from app.rexs.reading import READABLE, SCUFFING, TRAIN, Reading, rounded
 from app.rexs.stages import SPEED, TORQUE, StageDraft, pairs
 
@@ -31,7 +31,7 @@ The keys are the names of the attributes, and the values are the units of the at
 """
 
 
-def gear_unit(model: Model) -> dict[str, Any]:
+def gear_unit(model: RexsUnit) -> dict[str, Any]:
     """Return the answer of /v1/rexs about the gear unit of a REXS file."""
     reading = Reading(model)
     _check_relations(reading)
@@ -63,7 +63,7 @@ def gear_unit(model: Model) -> dict[str, Any]:
     }
 
 
-def _stages(reading: Reading, all_pairs: list[Pair], base: Flow, flows: list[Flow]) -> list[dict[str, Any]]:
+def _stages(reading: Reading, all_pairs: list[Pair], base: PowerFlow, flows: list[PowerFlow]) -> list[dict[str, Any]]:
     """Return the stages in the answer.
 
     For each stage, the answer lists the attributes of the file that were not used. Some unused attributes belong to a
@@ -88,7 +88,7 @@ def _stages(reading: Reading, all_pairs: list[Pair], base: Flow, flows: list[Flo
     return rows
 
 
-def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], StageDraft]:
+def _stage(pair: Pair, base: PowerFlow, flows: list[PowerFlow]) -> tuple[dict[str, Any], StageDraft]:
     """Return the part of the answer that describes a stage, and the draft from which this part is made.
 
     The requests for the stage need a load. If the file states a load outside the load cases, this load is used.
@@ -130,7 +130,7 @@ def _stage(pair: Pair, base: Flow, flows: list[Flow]) -> tuple[dict[str, Any], S
     return row, stage
 
 
-def _draft_of(pair: Pair, flow: Flow, pinion: int | None = None) -> StageDraft:
+def _draft_of(pair: Pair, flow: PowerFlow, pinion: int | None = None) -> StageDraft:
     stage = StageDraft(pair, flow, pinion)
     stage.fill()
     Lubrication(stage).fill()
@@ -158,7 +158,7 @@ def _described_by(stage: StageDraft) -> Iterator[Component]:
     yield from filter(None, (stage.lubricant, model.first("gear_casing"), model.first("gear_unit")))
 
 
-class _Case(NamedTuple):
+class _StageCase(NamedTuple):
     """A load case of a stage. `changes` maps fields of the draft to the values of these fields in this load case."""
 
     name: str
@@ -186,7 +186,7 @@ class _Case(NamedTuple):
         return {place: rounded(self.changes[path]) for path, place in places.items() if place is not None}
 
 
-def _cases(stage: StageDraft, pair: Pair, flows: list[Flow], *, is_train: bool) -> list[_Case]:
+def _cases(stage: StageDraft, pair: Pair, flows: list[PowerFlow], *, is_train: bool) -> list[_StageCase]:
     """Return the load cases of a stage. A load case changes torque and speed, and it may change further inputs."""
     cases = []
     shares, reason = _shares([flow.reading for flow in flows])
@@ -212,7 +212,7 @@ def _cases(stage: StageDraft, pair: Pair, flows: list[Flow], *, is_train: bool) 
                 continue  # of the other flanks, if the load has another direction
             if path not in changes and (is_stated or stage.fields.get(path) != value):
                 changes |= dict(_differences(path, value, stage.fields.get(path)))
-        cases.append(_Case(case.name, rounded(share), changes))
+        cases.append(_StageCase(case.name, rounded(share), changes))
     if reason:
         stage.note("cases", None, reason)
     return cases

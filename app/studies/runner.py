@@ -187,6 +187,7 @@ class Study(ABC):
     summary: ClassVar[str]  # summary of the endpoint in the API
     answer: ClassVar[str]  # text that lists the lines of the answer
     model: ClassVar[type[Any]]  # model of the body
+    formats: ClassVar[tuple[str, ...]] = ("ndjson",)  # formats of the answer
     most: ClassVar[str] = "most_study_points"  # name of the setting that limits the number of points
     is_reduced: ClassVar[bool] = True  # True if calculations that no output needs are left out
 

@@ -110,7 +110,6 @@ ROOMS = (
     "studies",
     "manual",
     "pages",
-    "studies.kinds",
     "rexs",
     "http",
     "client",
@@ -118,26 +117,17 @@ ROOMS = (
     "command",
     "__main__",
 )
-"""The entries of `app`. An entry imports only itself and entries above it.
-
-The kinds of study are a separate entry, because their modules import parts of pages. The pages find the kinds of study
-without an import statement.
-"""
-
-
-KINDS = "studies.kinds"
+"""The entries of `app`. An entry imports only itself and entries above it: studies know nothing of pages."""
 
 
 def room(name: str) -> str | None:
     """Return the entry of `app` to which a module belongs, or None if the module is not in `app`."""
-    if name.startswith(f"app.{KINDS}."):
-        return KINDS
     return name.split(".")[1] if name.startswith("app.") else None
 
 
 def test_app_has_these_rooms() -> None:
     found = {path.stem for path in (ROOT / "app").iterdir() if path.suffix == ".py" or (path / "__init__.py").exists()}
-    assert found - {"__init__"} == set(ROOMS) - {KINDS}
+    assert found - {"__init__"} == set(ROOMS)
 
 
 def test_no_room_imports_a_higher_one() -> None:

@@ -1,4 +1,4 @@
-"""The function `answer` and the command `solve` answer requests without a server."""
+"""The function `answer` and the command `solve` answer requests without a server; `fields` lists all fields."""
 
 import io
 import json
@@ -142,3 +142,15 @@ def test_a_taken_port_is_one_line() -> None:
     assert ended.returncode == 1
     assert len(ended.stderr.splitlines()) == 1
     assert f"cannot listen on port {port} of 127.0.0.1" in ended.stderr
+
+
+def test_fields_leads_from_a_name_in_json_to_its_attribute(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(sys, "argv", ["tribodrive", "fields"])
+    main()
+    head, *rows = (line.split("\t") for line in capsys.readouterr().out.splitlines())
+    assert {len(row) for row in rows} == {len(head)}
+    (found,) = (dict(zip(head, row, strict=True)) for row in rows if row[1] == "limits.allowable_misalignment_deg")
+    assert found["solver"] == "solvers.coupling.results.Limits.allowable_misalignment"
+    assert (found["section"], found["unit"]) == ("Answers", "°")

@@ -22,7 +22,7 @@ from app.evaluate import evaluate, json_answer, written
 from app.http.routes.calculations import add
 from app.models.kernels import COUPLING, Kernels
 from app.pages import csv
-from app.pages.form import FieldView, State, form
+from app.pages.form import FieldView, FormState, form
 from app.pages.results import entries
 from app.pages.templating import page_path
 from app.schema.answers import Group, Response, group, read
@@ -182,7 +182,7 @@ def test_what_is_out_of_range_is_refused(value: object) -> None:
 
 
 def test_the_form_asks_for_it() -> None:
-    (section,) = (each for each in form(LONG.request, State()) if each.path == "spring")
+    (section,) = (each for each in form(LONG.request, FormState()) if each.path == "spring")
     field = next(block for block in section.blocks if isinstance(block, FieldView) and block.name == "spring.preload_n")
     assert (field.label, field.unit, field.placeholder) == ("preload", "N", "10")
 

@@ -11,7 +11,7 @@ import pytest
 from app import client as client_module
 from app.calculations import CALCULATIONS, Calculation
 from app.examples import examples
-from app.pages.cases import Case
+from app.pages.cases import SolvedCase
 from app.pages.report import for_python, for_shell
 from app.pages.templating import example_link
 from app.schema.reading import validated
@@ -24,7 +24,7 @@ def test_both_programs_send_the_request_of_the_case(
     calculation: Calculation, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     request = FIRST[calculation.path].request
-    case = Case(calculation, validated(calculation.request, request), None, b"")
+    case = SolvedCase(calculation, validated(calculation.request, request), None, b"")
     sent: list[tuple[str, str, Any]] = []
 
     def solve(service: client_module.Tribodrive, endpoint: str, given: Any) -> Any:
@@ -45,6 +45,6 @@ def test_both_programs_send_the_request_of_the_case(
 def test_the_page_shows_them(client: httpx.Client) -> None:
     example = examples()["pahl-axial-displacement"]
     page = client.get(example_link(CALCULATIONS[0], example), follow_redirects=True).text
-    case = Case(CALCULATIONS[0], validated(CALCULATIONS[0].request, example.request), None, b"")
+    case = SolvedCase(CALCULATIONS[0], validated(CALCULATIONS[0].request, example.request), None, b"")
     assert for_shell("http://localhost:8000", case) in unescape(page)
     assert for_python("http://localhost:8000", case) in unescape(page)

@@ -16,9 +16,9 @@ from app.pages.cases import Asked, solved
 from app.pages.overview import unit_page
 from app.pages.query import WRITTEN, from_form, link, pairs_of
 from app.pages.results import cards, conclusion, verdicts
+from app.pages.studies.sensitivity import SensitivityPage
 from app.pages.study_links import studies_of_case
 from app.pages.templating import examples_of, page_path
-from app.studies.kinds.sensitivity import SensitivityPage
 from tests.support.pages import asked, asked_by, checked, html_of, lines_of, whole
 from tests.support.requests import changed
 

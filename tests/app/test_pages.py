@@ -21,7 +21,7 @@ from app.evaluate import evaluate, written
 from app.examples import examples
 from app.pages import csv, views
 from app.pages.cases import Asked, solved
-from app.pages.form import State, form
+from app.pages.form import FormState, form
 from app.pages.query import MATRIX, body_of, link, normalised, pairs_of, pairs_of_query
 from app.pages.results import NOT_RESULTS
 from app.pages.templating import page_path
@@ -624,7 +624,7 @@ def test_a_report_tells_every_input_of_every_item() -> None:
 
 def test_a_required_field_of_no_section_stands_before_the_optional_sections() -> None:
     general, *others = (
-        [each.title for each in form(BY_PATH[path].request, State())].index("general")
+        [each.title for each in form(BY_PATH[path].request, FormState())].index("general")
         for path in ("/v1/drive-train", "/v1/scuffing", "/v1/pumping/choking-speed")
     )
     assert general == 2  # behind the gear pair and the operating point

@@ -8,7 +8,8 @@ from pathlib import Path
 from app.schema.answers import MODEL_VERSION
 
 ROOT = Path(__file__).parents[2]
-PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+PYPROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+PROJECT = PYPROJECT["project"]
 PINNED = re.compile(r"^([A-Za-z0-9._-]+==\S+)", re.MULTILINE)
 
 
@@ -52,3 +53,10 @@ def test_checks_before_a_commit_are_those_of_the_whole_run() -> None:
     hooks = re.findall(r"entry: (\.venv/bin/[^,\n]+)", text(".pre-commit-config.yaml"))
     assert hooks
     assert [hook for hook in hooks if "pytest" not in hook and hook not in text(".ci/run")] == []
+
+
+def test_the_package_has_no_picture_that_no_page_shows() -> None:
+    """The manual's pictures are for readers of the repository; pages draw their own."""
+    patterns = PYPROJECT["tool"]["setuptools"]["package-data"]["app"]
+    packed = {picture for pattern in patterns for picture in (ROOT / "app").glob(pattern) if picture.suffix == ".png"}
+    assert {picture.parent for picture in packed} <= {ROOT / "app" / "pages" / "static"}

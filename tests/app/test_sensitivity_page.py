@@ -13,9 +13,9 @@ import pytest
 from app.pages.cases import Asked
 from app.pages.studies import page as pages
 from app.pages.studies import stream
+from app.pages.studies.sensitivity import MOST_ROWS, SensitivityPage
+from app.pages.studies.sweep import SweepPage
 from app.pages.typesetting import shown
-from app.studies.kinds.sensitivity import MOST_ROWS, SensitivityPage
-from app.studies.kinds.sweep import SweepPage
 from tests.support.pages import asked, asked_by, checked, lines_of, opened, whole
 
 COUPLING = "pahl-axial-displacement"

@@ -16,10 +16,12 @@ from app.errors import Unprocessable
 from app.examples import examples
 from app.pages.query import pairs_of
 from app.pages.studies import page as pages
+from app.pages.studies.load_cases import cases_of, table_of
 from app.pages.studies.page import StudyPage
+from app.pages.studies.spectrum import SpectrumPage, address_of
 from app.pages.studies.stream import report_pieces
 from app.schema.fields import ITEM, leaves
-from app.studies.kinds.spectrum import Spectrum, SpectrumPage, address_of, cases_of, table_of
+from app.studies.kinds.spectrum import Spectrum
 from app.studies.requests import EXAMPLES
 from app.studies.runner import Clock
 from tests.support.pages import DEADLINE_S, asked, asked_by, checked, fault_at, lines_of, whole

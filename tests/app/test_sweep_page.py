@@ -27,14 +27,14 @@ from app.pages.cases import Asked
 from app.pages.query import VIEW_NAMES, WRITTEN, body_of
 from app.pages.studies import page as pages
 from app.pages.studies.controls import field_choices
+from app.pages.studies.design import DesignPage
 from app.pages.studies.page import output_choices
+from app.pages.studies.spectrum import SpectrumPage
+from app.pages.studies.sweep import SweepPage
 from app.pages.study_kinds import control_names
 from app.pages.study_links import STUDIES, StudyExample
 from app.schema.fields import leaf_at, leaves
 from app.sources import SHORT_SOURCES
-from app.studies.kinds.design import DesignPage
-from app.studies.kinds.spectrum import SpectrumPage
-from app.studies.kinds.sweep import SweepPage
 from app.studies.point_sets import PointSet
 from app.studies.points import Question, solve_point
 from app.studies.runner import Line, point_line

@@ -13,12 +13,12 @@ from app.calculations import BY_PATH
 from app.figures.data import Hue
 from app.pages.cases import Asked, solved
 from app.pages.studies import page as pages
+from app.pages.studies.corners import CornersPage
+from app.pages.studies.design import DesignPage
 from app.pages.studies.page import StudyPage
+from app.pages.studies.sensitivity import SensitivityPage
 from app.pages.study_links import study_links
 from app.pages.typesetting import shown
-from app.studies.kinds.corners import CornersPage
-from app.studies.kinds.design import DesignPage
-from app.studies.kinds.sensitivity import SensitivityPage
 from tests.support.pages import asked, asked_by, checked, lines_of, opened, whole
 
 UNIT = "starter-generator-gear-drive-train"

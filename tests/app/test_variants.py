@@ -6,7 +6,7 @@ from html import unescape
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.pages.cases import Asked, solved
-from app.pages.form import Section, State, form
+from app.pages.form import FormSection, FormState, form
 from app.pages.query import link, pairs_of
 from app.pages.typesetting import shown
 from app.pages.variants import MOST, SEPARATOR, queries_of, with_this
@@ -70,13 +70,13 @@ def test_a_variant_that_is_refused_is_named() -> None:
 
 def test_the_section_with_the_limit_of_the_verdict_is_open_and_near_the_top() -> None:
     calculation = BY_PATH["/v1/scuffing"]
-    sections = form(calculation.request, State({}, deciding=_deciding(calculation)))
+    sections = form(calculation.request, FormState({}, deciding=_deciding(calculation)))
     places = {each.path: place for place, each in enumerate(sections)}
     needed = sum(each.needed for each in sections)
     assert places["temperatures"] == needed
     (temperatures,) = [each for each in sections if each.path == "temperatures"]
     assert temperatures.open
     (test,) = [
-        each for each in temperatures.blocks if isinstance(each, Section) and each.path.endswith("scuffing_test")
+        each for each in temperatures.blocks if isinstance(each, FormSection) and each.path.endswith("scuffing_test")
     ]
     assert test.open, "the FZG stage is in sight"

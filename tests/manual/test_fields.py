@@ -12,8 +12,9 @@ import pytest
 
 from app.calculations import CALCULATIONS
 from app.examples import examples
+from app.http.routes.manual import OTHER_ANSWERS
 from app.main import app
-from app.manual.fields import address, entries
+from app.manual.fields import address, table
 from app.pages.query import link, pairs_of
 from app.pages.templating import page_path
 from app.schema.fields import ITEM, leaves
@@ -21,7 +22,8 @@ from solvers.quantity import quantities
 
 ROOT = Path(__file__).parents[2]
 DOCUMENT = app.openapi()
-FIELDS = {(each.section, endpoint, each.path): each for each in entries() for endpoint in each.endpoints}
+ENTRIES = table(OTHER_ANSWERS)
+FIELDS = {(each.section, endpoint, each.path): each for each in ENTRIES for endpoint in each.endpoints}
 NOT_TOLD = {"/v1/rexs/results"}  # a file
 
 
@@ -70,7 +72,7 @@ def test_ten_drawn_fields_lead_to_the_line_that_declares_them() -> None:
 
     The source of this module declares this attribute in this class.
     """
-    declared = [each for each in entries() if each.section in {"Requests", "Answers"} and each.cells[9]]
+    declared = [each for each in ENTRIES if each.section in {"Requests", "Answers"} and each.cells[9]]
     for entry in random.Random(42).sample(declared, 10):
         module, kind, name = entry.cells[9].strip("`").rsplit(".", 2)
         assert name in quantities(getattr(import_module(module), kind))
@@ -80,13 +82,14 @@ def test_ten_drawn_fields_lead_to_the_line_that_declares_them() -> None:
 
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 def test_every_field_has_a_row_to_which_a_link_leads(calculation: Any) -> None:
-    anchors = {each.anchor for each in entries()}
-    assert len(anchors) == len(entries())
+    anchors = {each.anchor for each in ENTRIES}
+    assert len(anchors) == len(ENTRIES)
     for section, model in (("Requests", calculation.request), ("Answers", calculation.response)):
         for leaf in leaves(model):
-            to_row = address(section, calculation.path, leaf.path)
-            assert to_row.removeprefix("/manual/fields#") in anchors
             assert FIELDS[section, calculation.path, leaf.path].cells[3] == (leaf.unit or "")
+    for leaf in leaves(calculation.request):
+        to_row = address(calculation.path, leaf.path)
+        assert to_row.removeprefix("/manual/fields#") == FIELDS["Requests", calculation.path, leaf.path].anchor
 
 
 def test_pages_lead_to_the_table(client: httpx.Client) -> None:

@@ -1,7 +1,6 @@
 """The tables and anchors of the manual agree with the code. `python -m tests.manual.test_generated` renews them.
 
-The command also renews the pictures, and the whole chapter on inputs and outputs, which `tests.manual.fields` writes.
-The symbolic link `docs/fields.md` leads to this chapter.
+The command also renews the pictures.
 
 In a chapter, a generated table stands between `<!-- generated: NAME -->` and `<!-- end -->`. A picture is named after
 an example and one of its figures, or after a study. These pictures and the anchors before numbered equations are for
@@ -23,17 +22,15 @@ from app.manual import NAMES, chapters
 from app.manual.equations import anchor
 from app.pages.cases import Asked
 from app.pages.manual import shown_studies
+from app.pages.studies import PAGES
 from app.pages.studies.page import checked, file
-from app.pages.study_kinds import study_page
 from app.settings import Settings
 from app.studies.runner import Clock, Line
 from solvers.published import STATEMENTS, Row
-from tests.manual import fields
 from tests.manual.pictures import figures_of, studies_of
 from tests.support.pools import InlinePool
 
 FOLDER = Path(__file__).parents[2] / "app" / "manual"
-FIELDS_FILE = FOLDER / "fields.md"
 BLOCK = re.compile(r"<!-- generated: ([\w -]+) -->\n(.*?)<!-- end -->", re.DOTALL)
 NUMBERED = re.compile(
     r"(?:^<a id=\"eq-[\w.-]+\"></a>\n\n)?(^\$\$\n(?:(?!\$\$).)*?\\tag\{([^}]+)\}\n\$\$)", re.MULTILINE | re.DOTALL
@@ -156,7 +153,8 @@ def study_figure(name: str) -> bytes:
     """Return the picture of a study as a PNG file."""
     shown = shown_studies()[name]
     asked = Asked(shown.path, shown.pairs, {**shown.controls, "theme": "light"})
-    study = checked(study_page(shown.page), asked, STUDY_POINTS, DEADLINE_S)
+    page = next(page for page in PAGES if page.link.name == shown.page)
+    study = checked(page, asked, STUDY_POINTS, DEADLINE_S)
 
     async def lines() -> list[Line]:
         clock = Clock(study.study.total)
@@ -193,18 +191,7 @@ def renew_figures() -> None:
         (folder / f"{name}.{shown}.png").write_bytes(draw_figure(calculation, declaration, request, "png", "light"))
 
 
-def fields_chapter() -> str:
-    """Return the text of the chapter "Inputs and outputs" in Markdown."""
-    return fields.chapter(table)
-
-
-def test_the_table_of_fields_is_as_the_code_makes_it() -> None:
-    assert FIELDS_FILE.read_text("utf-8") == fields_chapter(), "renew it by python -m tests.manual.test_generated"
-
-
 if __name__ == "__main__":
-    FIELDS_FILE.write_text(fields_chapter(), "utf-8")
-    chapters.cache_clear()
     renew_chapters()
     renew_figures()
     renew_studies()

@@ -72,7 +72,7 @@ def _written(sheet: Sheet, title: str, image_format: str) -> bytes:
     return image.getvalue()
 
 
-class Place(NamedTuple):
+class PanelPlace(NamedTuple):
     """Position of the axes of a panel in the image.
 
     `box` holds left, top, width and height as fractions of the image. `x` holds three items: the
@@ -85,7 +85,7 @@ class Place(NamedTuple):
     y: tuple[float, float, bool]
 
 
-def places(figure: Figure) -> list[Place]:
+def places(figure: Figure) -> list[PanelPlace]:
     """Return the positions of the axes of all panels in the image."""
     with themed("light"):
         _, axes = laid_out(figure)
@@ -93,7 +93,7 @@ def places(figure: Figure) -> list[Place]:
     for panel, own_axes in zip(figure.panels, axes, strict=True):
         box = own_axes.get_position()
         x, y = (*own_axes.get_xlim(), panel.x.log), (*own_axes.get_ylim(), panel.y.log)
-        positions.append(Place(panel, (box.x0, 1.0 - box.y1, box.width, box.height), x, y))
+        positions.append(PanelPlace(panel, (box.x0, 1.0 - box.y1, box.width, box.height), x, y))
     return positions
 
 

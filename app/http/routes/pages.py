@@ -1,4 +1,4 @@
-"""Start page, manual and pages of cases. The addresses of all views of a case have the same query."""
+"""Start page and pages of cases. The addresses of all views of a case have the same query."""
 
 import json
 from collections.abc import Callable, Iterable
@@ -17,11 +17,9 @@ from app.calculations import CALCULATIONS, Calculation
 from app.errors import Unreadable, kind_of
 from app.figures import MEDIA_TYPES
 from app.http.problems import answer
-from app.manual import NAMES
 from app.pages import views
 from app.pages.asked import asked_in
 from app.pages.cases import Asked, key_of, opened
-from app.pages.manual import chapter_page, contents_page, functions_page
 from app.pages.overview import start_page
 from app.pages.query import link
 from app.pages.templating import ASSETS, page_path, rendered
@@ -68,34 +66,6 @@ async def open_case(http: Request) -> Response:
     await http.app.state.start_up.wait(http, asked.calculation.kernels.of(dict(asked.pairs).get))
     shown = await _shown(http, asked, views.page)
     return html(shown.content, shown.status)
-
-
-# The first rendering of a chapter takes a tenth of a second. These functions are not coroutines, so that the server can
-# answer other requests meanwhile.
-
-
-@router.get("/manual")
-def contents(http: Request) -> Response:
-    """Show the table of contents of the manual."""
-    return html(contents_page(root_of(http)))
-
-
-@router.get("/manual/{name}")
-def chapter(http: Request, name: str) -> Response:
-    """Show a chapter of the manual, or the functions that implement the equations."""
-    if name == "functions":
-        return html(functions_page(root_of(http)))
-    if name not in NAMES:
-        raise HTTPException(404, f"The manual has no such chapter. The chapters are {', '.join(NAMES)}, functions")
-    return html(chapter_page(root_of(http), name))
-
-
-@router.get("/{model}/about")
-def about(http: Request, model: str) -> Response:
-    """Redirect from the former address of a chapter."""
-    if model not in NAMES:
-        raise HTTPException(404, f"The manual has no chapter on {model}")
-    return RedirectResponse(f"{root_of(http)}/manual/{model}", 308)
 
 
 def _add(calculation: Calculation) -> None:

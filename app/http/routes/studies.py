@@ -15,8 +15,7 @@ from starlette.types import Receive, Scope, Send
 from app.calculations import BY_PATH
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
-from app.pages.studies.page import StudyPage
-from app.pages.study_kinds import study_pages
+from app.studies.kinds import KINDS
 from app.studies.requests import EXAMPLES
 from app.studies.runner import PROGRESS_S, Clock, Lines, Study, encoded, guarded
 
@@ -92,9 +91,8 @@ def wanted_format(http: Request, named: Format) -> Format:
 router = APIRouter(tags=["studies"], route_class=JsonRoute, responses=documented(400, 413, 415, 422, 500, 503, 504))
 
 
-def _add(page: type[StudyPage]) -> None:
+def _add(kind: type[Study]) -> None:
     """Add the endpoint of a kind of study. If the lines of the study can be a table, add a choice of formats."""
-    kind = page.plan
 
     async def lines(http: Request, body: Any) -> Response:
         return await started(http, kind, body)
@@ -108,9 +106,9 @@ def _add(page: type[StudyPage]) -> None:
     ) -> Response:
         return await started(http, kind, body, wanted_format(http, written_as))
 
-    answer = lines_or_table if "csv" in page.files else lines
+    answer = lines_or_table if "csv" in kind.formats else lines
     answer.__annotations__["body"] = Annotated[kind.model, Body(openapi_examples=EXAMPLES.get(kind.path))]
-    content = {media: {"schema": {"type": "string"}} for name, media in MEDIA_TYPES.items() if name in page.files}
+    content = {media: {"schema": {"type": "string"}} for name, media in MEDIA_TYPES.items() if name in kind.formats}
     router.add_api_route(
         kind.path,
         answer,
@@ -123,5 +121,5 @@ def _add(page: type[StudyPage]) -> None:
     )
 
 
-for page in study_pages():
-    _add(page)
+for each in KINDS:
+    _add(each)

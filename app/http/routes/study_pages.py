@@ -15,10 +15,10 @@ from app.errors import StudyEnded
 from app.http.routes import pages
 from app.http.routes.studies import MEDIA_TYPES, begun, planned, streamed
 from app.pages.cases import Asked
+from app.pages.studies import PAGES
 from app.pages.studies import page as study_page
 from app.pages.studies.page import StudyPage
 from app.pages.studies.stream import pieces, report_pieces
-from app.pages.study_kinds import study_page as kind_named
 from app.pages.study_links import study_links
 from app.pages.templating import page_path
 from app.studies.runner import encoded, twice_if_lost
@@ -48,8 +48,8 @@ def _add(calculation: Calculation, own: type[StudyPage]) -> None:
         return await _page(http, calculation, own, path)
 
     async def lines(http: Request, media: str) -> Response:
-        if media not in own.files:
-            names = ", ".join(f"{own.link.name}.{suffix}" for suffix in own.files)
+        if media not in own.plan.formats:
+            names = ", ".join(f"{own.link.name}.{suffix}" for suffix in own.plan.formats)
             raise HTTPException(404, f"This file does not exist. The files are {names}")
         study = (await checked(http)).study
         encode = study.encoder(media)
@@ -121,5 +121,6 @@ async def _made(http: Request, study: StudyPage, view: Callable[..., bytes | str
 
 
 for each in CALCULATIONS:
-    for study_link in study_links(each):
-        _add(each, kind_named(study_link.name))
+    for own_page in PAGES:
+        if own_page.link in study_links(each):
+            _add(each, own_page)

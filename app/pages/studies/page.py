@@ -14,13 +14,13 @@ from app.calculations import Calculation
 from app.errors import Unprocessable, Unreadable
 from app.figures import Format, written
 from app.figures.data import Figure
-from app.pages.cases import FILE_NAMES, REFUSED, Asked, Case, Fault, faults_of, solved
+from app.pages.cases import FILE_NAMES, REFUSED, Asked, FormFault, SolvedCase, faults_of, solved
 from app.pages.charts import embedded
 from app.pages.form import FieldView
-from app.pages.query import CASES, LONGEST_QUERY, link, pairs_of, written_of
+from app.pages.query import LONGEST_QUERY, link, pairs_of, written_of
 from app.pages.results import NOT_RESULTS
 from app.pages.studies.controls import Choice, Control, Menu, Options, body_of, control_at, menu
-from app.pages.study_kinds import StudyLink, control_names
+from app.pages.study_kinds import CASES, StudyLink, control_names
 from app.pages.study_links import Starter, StudyExample
 from app.pages.templating import examples_of, rendered
 from app.pages.typed import as_typed, question, text_of
@@ -100,10 +100,8 @@ class StudyPage(ABC):
     ----------
     link, question, about
         Link to the page, heading of the page, and sentence below the heading.
-    names
-        Names of all controls that the page may have, except the menu of outputs.
-    figures, files
-        Names of all figures that the page can show, and the formats in which the answer can be downloaded.
+    figures
+        Names of all figures that the page can show.
     template
         Template of the result.
     outputs
@@ -129,14 +127,12 @@ class StudyPage(ABC):
     link: StudyLink
     question: str
     about: str
-    names: frozenset[str] = frozenset()
     figures: tuple[str, ...]
     template = "study_result.html"
     outputs: tuple[str, ...] = ()
     grows = False
     needs: tuple[str, ...] = ()
     choose = ""
-    files: tuple[str, ...] = ("ndjson",)
     plan: type[Study]
 
     def __init__(self, asked: Asked) -> None:
@@ -144,7 +140,7 @@ class StudyPage(ABC):
         self.views = asked.views
         self.case = asked.case
         self.study: Any = None
-        self.faults: list[Fault] = []
+        self.faults: list[FormFault] = []
 
     @abstractmethod
     def body(self) -> dict[str, Any]:
@@ -280,7 +276,7 @@ class StudyPage(ABC):
         del body["detail"]
         return link(f"{self.asked.path}{below}", pairs_of(body), theme=self.asked.theme)
 
-    def solved(self, overrides: Overrides) -> Case:
+    def solved(self, overrides: Overrides) -> SolvedCase:
         """Return the case with the values of one point of the study, and with the answer for this point.
 
         `overrides` holds the values of the point. Only the parts of the answer that the outputs need are calculated.
@@ -314,7 +310,7 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
         # A message about a fault in the table of cases names the line of the fault. Such a message is therefore not
         # replaced by a question.
         texts = {name: text for name, text in asked.views.items() if name != CASES}
-        page.faults = [Fault(name, question(texts.get(name, "")) or message) for name, message in at_controls]
+        page.faults = [FormFault(name, question(texts.get(name, "")) or message) for name, message in at_controls]
     show = page.menu("show", "output", page.usual_output.title, output_choices(page.calculation))
     groups = (*page.controls(), Controls("Show", show, page.shows()))
     controls = {control.name for group in groups for control in (group.menu, *group.fields) if control}

@@ -1,0 +1,112 @@
+"""The page of a gear unit's corners: the effect of each uncertain input, and the load along the face at the worst."""
+
+from typing import Any
+
+from app.figures.data import Hue, Row
+from app.figures.studies import corners
+from app.figures.units import axis_of
+from app.figures.wording import listed, number
+from app.models.drive_train.figures import LOAD_ALONE
+from app.pages.cases import SolvedCase
+from app.pages.studies.page import Link, Number, Result, Table
+from app.pages.studies.unit import UnitPage, load_figure
+from app.pages.study_kinds import CORNERS, DESIGN
+from app.pages.typesetting import shown
+from app.schema.fields import headlines
+from app.studies.fields import value_at
+from app.studies.kinds.corners import USUAL_RANGES, Corners
+from app.studies.points import COLD, needs_film
+from app.studies.requests import DRIVE_TRAIN, Overrides
+from app.studies.runner import Line
+
+
+class CornersPage(UnitPage):
+    """The page that shows the worst corner of a gear unit."""
+
+    link = CORNERS
+    question = "which corner is worst?"
+    about = f"The result is calculated for every combination of the uncertain inputs: {USUAL_RANGES}."
+    figures = ("corners", LOAD_ALONE.name)
+    corners = "ranges"
+    plan = Corners
+    study: Corners
+
+    def body(self) -> dict[str, Any]:
+        """Return the body of the request for the study.
+
+        The body contains the values that the user typed for the uncertain inputs, or the usual values if the user typed
+        none. The requested outputs are the output that the page shows, and all headline numbers that need neither the
+        thermal film nor the cold state.
+        """
+        output, paths = self.output.path, [leaf.path for leaf in headlines(self.calculation.response)]
+        deciding = [path for path in paths if not (needs_film(DRIVE_TRAIN, path) or path.startswith(COLD))]
+        return {
+            "request": self.asked.body,
+            **self.given(),
+            "outputs": list(dict.fromkeys([output, *deciding])),
+        }
+
+    def result(self, lines: list[Line]) -> Result:
+        """Return two figures and two tables.
+
+        One figure shows the effect of each uncertain input. The other figure compares the load along the face at the
+        worst corner with the load of the case as entered. One table lists the extremes of each output, and the other
+        table lists the inputs at the worst corner. If the output has no value at any corner, there are no figures and
+        no tables.
+        """
+        end, output = lines[-1], self.output
+        extremes = {line["output"]: line for line in lines if line["type"] == "extremes"}
+        progress = f"{end['points']} corners in {shown(end['elapsed_s'], 2)} s"
+        remarks = [warning["message"] for warning in end["warnings"]]
+        if output.path not in extremes:
+            remarks.append(f"No corner has a value of the {output.title}; choose another output.")
+            return Result(progress, remarks=tuple(remarks))
+        worst = extremes[output.path]["min" if output.view.greatest_is_best else "max"]["at"]
+        case, worst_case = self.solved({}), self.solved(worst)
+        figure = corners(axis_of(output), self._rows(lines, worst), value_at(case.response, output.path))
+        load = load_figure(worst_case, case, "worst corner", "worst corner and, dashed, as described: ")
+        leads = (
+            Link("Open the worst corner", self.address(worst)),
+            Link("Its report", self.address(worst, "/report")),
+            Link("What to grind", self.asked.study(DESIGN.name)),
+        )
+        tables = (self._extremes(extremes, case), self.corner_table("The worst corner", case, worst))
+        return Result(progress, {"corners": figure, **load}, tables, tuple(remarks), leads)
+
+    def _rows(self, lines: list[Line], worst: Overrides) -> list[Row]:
+        """Return one row of a dot plot per uncertain input, with one dot per value of the input.
+
+        The position of a dot is the worst output among all corners at which the input has this value. If none of these
+        corners has a solution, the dot is left out.
+        """
+        points = [line for line in lines if line["type"] == "point" and line["out"][0] is not None]
+        pick = min if self.output.view.greatest_is_best else max
+        rows = []
+        for place, axis in enumerate(self.study.points.axes):
+            dots = []
+            for value in axis.values or ():
+                per_field = value if isinstance(value, list) else [value] * len(axis.leaves)
+                texts = [number(own) if isinstance(own, int | float) else str(own) for own in per_field]
+                text = ", ".join(texts[:1] if len(set(per_field)) == 1 else texts)
+                if unit := axis.header()["unit"]:
+                    text = f"{text} {unit}"
+                is_worst = [worst[leaf.path] for leaf in axis.leaves] == per_field
+                if outputs := [line["out"][0] for line in points if line["at"][place] == value]:
+                    dots.append(Row(text, pick(outputs), Hue.VERMILLION if is_worst else Hue.BLUE))
+            titles = dict.fromkeys(leaf.title for leaf in axis.leaves)
+            rows.append(Row(listed(list(titles)), pick(dot.value for dot in dots), dots=dots))
+        return rows
+
+    def _extremes(self, extremes: dict[str, Line], case: SolvedCase) -> Table:
+        """Return a table of the least and the largest value of each output.
+
+        Each least or largest value is a link to the corner at which the value occurs.
+        """
+        rows = []
+        for leaf in self.study.outputs:
+            if leaf.path in extremes:
+                ends = [extremes[leaf.path][end] for end in ("min", "max")]
+                least, largest = (Link(shown(end["value"]), self.address(end["at"])) for end in ends)
+                rows.append((leaf.title, shown(value_at(case.response, leaf.path)), least, largest, leaf.unit or ""))
+        head = ("output", Number("as described"), Number("least"), Number("largest"), "unit")
+        return Table("Over all corners", head, rows, "Click a number to open the case at its corner.")

@@ -1,0 +1,254 @@
+"""The page of the design study: the best flank correction as a sheet for the grinder, and the course of the search."""
+
+from typing import Any
+
+from app.figures.comparison import compared
+from app.figures.data import Figure, NoFigure, values
+from app.figures.studies import Lead, lead_chart, search
+from app.figures.units import axis_of
+from app.models.drive_train.figures import GAP, LOAD_ALONE
+from app.pages.cases import SolvedCase
+from app.pages.studies.controls import Control
+from app.pages.studies.page import OUTPUT, Controls, Link, Number, Result, Table
+from app.pages.studies.unit import UnitPage, load_figure
+from app.pages.study_kinds import CORNERS, DESIGN
+from app.pages.typesetting import shown
+from app.studies.fields import value_at
+from app.studies.kinds.design import Design
+from app.studies.requests import Overrides
+from app.studies.runner import Line
+
+EVALUATIONS = 40  # default of the largest number of evaluations on the page; chosen
+STEP_UM = 0.5  # the page rounds the best correction to multiples of this step
+SLOPE, CROWNING = "modifications.helix_slope_um", "modifications.lead_crowning_um"
+TIP, ROOT = "modifications.tip_relief_um", "modifications.root_relief_um"
+# The corrections that may be ground. Each entry has a label, the fields that get the value of the correction, and the
+# ends of the default range of the search [um]. The ranges are chosen. They are wider than the corrections that are
+# usual for modules of a few millimetres. The user may change the ranges.
+GROUND = (
+    ("helix slope", (SLOPE,), -100.0, 100.0),
+    ("crowning", (CROWNING,), 0.0, 20.0),
+    ("relief at tip and root", (TIP, ROOT), 0.0, 30.0),
+)
+TRIALS = Control("trials", "evaluations", EVALUATIONS, label="corrections tried")
+ENDS = tuple(
+    control
+    for place, (label, _, low, high) in enumerate(GROUND)
+    for control in (
+        Control(f"low.{place}", f"variables.{place}.min", low, label=f"{label}, from", unit="µm"),
+        Control(f"high.{place}", f"variables.{place}.max", high, label=f"{label}, to", unit="µm"),
+    )
+)
+"""Two controls per correction, for the ends of the range that is searched."""
+
+
+class DesignPage(UnitPage):
+    """The page that shows the flank correction with the best result at the worst corner."""
+
+    link = DESIGN
+    question = "what to grind?"
+    about = (
+        "The search varies helix slope, crowning and relief. Each correction is judged at its worst corner of the "
+        "uncertain inputs. The search starts from the correction of the case."
+    )
+    figures = ("lead", LOAD_ALONE.name, GAP.name, "search")
+    grows = True
+    left_alone = ("pinion clearance", "wheel clearance", "thrust fraction")  # the uncertain inputs with least influence
+    plan = Design
+
+    def body(self) -> dict[str, Any]:
+        """Return the body of the study's request.
+
+        The body contains the ranges of the corrections and the values of the uncertain inputs. The user can type these
+        ranges and values; otherwise the defaults are used. The inputs in `left_alone` have no defaults.
+        """
+        output, given = self.output, self.given()
+        for (_, paths, *_), variable in zip(GROUND, given["variables"], strict=True):
+            variable |= {"path": list(paths), "step": STEP_UM}
+        return {
+            "request": self.asked.body,
+            **given,
+            "objective": output.path,
+            "direction": "maximise" if output.view.greatest_is_best else "minimise",
+        }
+
+    def declared(self) -> tuple[Control, ...]:
+        """Return the controls for the number of trials, the ranges of the corrections and the uncertain inputs.
+
+        Further items state where errors are shown. Errors of a correction are shown at the lower end of its range, and
+        errors of the objective are shown at the menu of outputs.
+        """
+        whole = (Control(f"low.{place}", f"variables.{place}", sets=False) for place in range(len(GROUND)))
+        objective = Control(OUTPUT.name, "objective", sets=False)
+        return (TRIALS, *ENDS, *whole, objective, *super().declared())
+
+    def controls(self) -> tuple[Controls, ...]:
+        """Return two groups of form fields.
+
+        One group contains the number of trials and the ranges of the corrections. The other group contains the values
+        of the uncertain inputs.
+        """
+        fields = tuple(map(self.field_of, (TRIALS, *ENDS)))
+        return Controls("Search", fields=fields), *super().controls()
+
+    def result(self, lines: list[Line]) -> Result:
+        """Return the sheet for the grinder, further tables, and figures of the lead, the load, the gap and the search.
+
+        While the search runs, return only the best correction so far and the figure of the search.
+        """
+        trials = [line for line in lines if line["type"] == "trial"]
+        solved_trials = [line for line in trials if line["objective"] is not None]
+        if not solved_trials:
+            return Result("")
+        end, greatest = lines[-1], self.output.view.greatest_is_best
+        objectives = [line["objective"] for line in trials]
+        figure = {"search": search(axis_of(self.output), objectives, greatest=greatest)}
+        if end["type"] != "end":
+            best = (max if greatest else min)(solved_trials, key=lambda line: line["objective"])
+            lead = Link("Open the unit ground so", self.address(best["at"]))
+            return Result("", figure, first=(self._so_far(solved_trials[0], best),), leads=(lead,))
+        wanted = end["rounded"]
+        if wanted["objective"] is None:
+            wanted = {"at": end["best"], "objective": end["objective_best"], "worst_corner": end["worst_corner"]}
+        at, corner = wanted["at"], wanted["worst_corner"]
+        case, ground = self.solved({}), self.solved(at)
+        at_worst, as_described = self.solved({**at, **corner}), self.solved(trials[0]["worst_corner"])
+        finding = "each at its worst corner, dashed as described: "
+        figures = {
+            "lead": self._lead_chart(case, at),
+            **load_figure(at_worst, as_described, "ground so", finding),
+            **_gap(ground, case),
+            **figure,
+        }
+        unsolved = end["unsolved"]
+        return Result(
+            f"{end['evaluations']} corrections at {lines[0]['corners']} corners in {shown(end['elapsed_s'], 2)} s",
+            figures,
+            (_numbers(case, end, at), self.corner_table("The worst corner with this correction", ground, corner)),
+            (f"{unsolved} of the corrections have a corner without solution.",) if unsolved else (),
+            (
+                Link("Open the unit ground so", self.address(at)),
+                Link("Its report", self.address(at, "/report")),
+                Link("Its worst corners", self.address(at, f"/{CORNERS.name}")),
+            ),
+            first=(self._sheet(case, at), self._before_and_after(end, wanted, case, ground)),
+        )
+
+    def _so_far(self, start: Line, best: Line) -> Table:
+        """Return the table that the page shows while the search runs: the best correction so far."""
+        rows = []
+        for path, value in best["at"].items():
+            leaf = self.input(path)
+            rows.append((leaf.title, shown(start["at"][path], 4), shown(value, 4), leaf.unit or ""))
+        judged = f"{self.output.title}, at the worst corner"
+        rows.append((judged, shown(start["objective"]), shown(best["objective"]), self.output.unit or ""))
+        return Table("Best so far", ("correction", Number("as described"), Number("best so far"), "unit"), rows)
+
+    def _sheet(self, case: SolvedCase, at: Overrides) -> Table:
+        """Return the sheet for the grinder: gear, place on the flank, amount and tolerance of each correction."""
+        inputs = case.response.inputs
+        slope = float(at[SLOPE] or 0.0)
+        deep, high = _ends(case) if slope < 0.0 else reversed(_ends(case))
+        tip, wheel_tip = (
+            f"tip relief, {shown(length)} mm along the line of action" if length is not None else "tip relief"
+            for length in (value_at(inputs, path.replace("_um", "_length_mm")) for path in (TIP, ROOT))
+        )
+        entries = (
+            (SLOPE, "pinion", "helix slope, over the face width", f"{deep} deeper than the {high}, straight between"),
+            (CROWNING, "pinion", "helix crowning", "both ends deeper than the middle of the face"),
+            (TIP, "pinion", tip, "tip deeper than the involute"),
+            (ROOT, "wheel", wheel_tip, "tip deeper than the involute"),
+        )
+        rows = []
+        for path, gear, feature, place in entries:
+            leaf, described, amount = self.input(path), float(value_at(inputs, path) or 0.0), at[path]
+            if path == SLOPE:  # for the slope, the column `where` shows the sign
+                described, amount = -described if slope < 0.0 else described, abs(slope)
+            numbers = (shown(described), shown(amount, 4), f"± {shown(leaf.declared.tolerance)}")
+            rows.append((gear, feature, place, *numbers, leaf.unit or ""))
+        numbered = map(Number, ("as described", "grind", "tolerance"))
+        note = (
+            'Only the working flanks are corrected. "Deeper" means that more material is removed. Corrections are '
+            f"multiples of {STEP_UM:g} µm; the tolerances are usual for these corrections. Helix slope and crowning "
+            "are the sums for both gears and are put on the pinion. Tip relief of the wheel replaces root relief of "
+            "the pinion."
+        )
+        return Table("What to grind", ("gear", "correction", "where", *numbered, "unit"), rows, note)
+
+    def _before_and_after(self, end: Line, wanted: Line, case: SolvedCase, ground: SolvedCase) -> Table:
+        """Return a table that compares the output before and after the correction.
+
+        One column is for the correction as entered, and one column is for the best correction. The first row states
+        the output with the worst values of the uncertain inputs, and the second row with the values as entered. If the
+        best correction worsens the output in the second row, the table has a note.
+        """
+        output = self.output
+        before, after = (value_at(unit_case.response, output.path) for unit_case in (case, ground))
+        unit, note = output.unit or "", ""
+        rows = (
+            ("at the worst corner of each", shown(end["objective_start"]), shown(wanted["objective"]), unit),
+            ("with the inputs as described", shown(before), shown(after), unit),
+        )
+        if None not in {before, after} and (after < before if output.view.greatest_is_best else after > before):
+            note = (
+                "With the inputs as described the result is worse than before. The reason is that the correction is "
+                "chosen for its worst corner; a flank that is right at this corner is not quite right elsewhere."
+            )
+        return Table("What it brings", (output.title, Number("as described"), Number("ground so"), "unit"), rows, note)
+
+    def _lead_chart(self, case: SolvedCase, at: Overrides) -> Figure:
+        """Return the figure of the lead, which is the sum of helix slope and crowning.
+
+        The solid line is the lead to grind, with its tolerance band. The dashed line is the lead as entered.
+        """
+        curves, inputs = case.response.misalignment.curves, case.response.inputs
+        position = values(curves.position_mm)
+        wanted = Lead(*(float(at[path] or 0.0) for path in (SLOPE, CROWNING)))
+        before = Lead(*(float(value_at(inputs, path) or 0.0) for path in (SLOPE, CROWNING)))
+        tolerance = Lead(*(self.input(path).declared.tolerance or 0.0 for path in (SLOPE, CROWNING)))
+        return lead_chart(values(curves.z_mm), position / position[-1], wanted, before, tolerance, _ends(case))
+
+
+def _ends(case: SolvedCase) -> tuple[str, str]:
+    """Return the names of both ends of the face. The end that meshes first comes first."""
+    first, *_, last = case.response.misalignment.curves.z_mm
+    drive = case.request.pinion_shaft.torque_position_mm
+    if drive is None:
+        return f"end at Z = {shown(first)} mm", f"end at Z = {shown(last)} mm"
+    sides = ("drive end", "free end") if abs(first - drive) < abs(last - drive) else ("free end", "drive end")
+    return f"{sides[0]} (Z = {shown(first)} mm)", f"{sides[1]} (Z = {shown(last)} mm)"
+
+
+def _numbers(case: SolvedCase, end: Line, at: Overrides) -> Table:
+    """Return a table that explains why the pages of a gear unit show different values of helix slope and crowning.
+
+    Each row states one helix slope, one crowning, and the source of both values.
+    """
+    misalignment, inputs = case.response.misalignment, case.response.inputs
+    estimate = "first estimate: inputs as described, load spread evenly over the face"
+    entries = (
+        ("as described", value_at(inputs, SLOPE), value_at(inputs, CROWNING)),
+        (estimate, misalignment.recommended_helix_slope_um, misalignment.recommended_lead_crowning_um),
+        ("best at the worst corner, as the search found it", end["best"][SLOPE], end["best"][CROWNING]),
+        (f"to grind: the best in multiples of {STEP_UM:g} µm", at[SLOPE], at[CROWNING]),
+    )
+    return Table(
+        "Which number is which",
+        ("number", Number("helix slope, µm"), Number("helix crowning, µm")),
+        tuple((name, shown(slope, 4), shown(crowning, 4)) for name, slope, crowning in entries),
+        "A positive helix slope removes material at the end of the face that leaves the mesh last.",
+    )
+
+
+def _gap(ground: SolvedCase, case: SolvedCase) -> dict[str, Figure]:
+    """Return the figure of the gap between the flanks over the face.
+
+    Solid lines show the gap with the correction to grind, and dashed lines the gap with the correction as entered. In
+    both calculations, the uncertain inputs have the values as entered. If one of the two
+    calculations has no such figure, return an empty dictionary.
+    """
+    try:
+        own, given = (GAP.figure(unit_case.request, unit_case.response) for unit_case in (ground, case))
+    except NoFigure:
+        return {}
+    return {GAP.name: compared(own, given, "as described")}

@@ -1,0 +1,80 @@
+"""The page of a sensitivity study: a figure and a table of the inputs that change an output most."""
+
+from typing import Any
+
+from app.figures.data import Figure
+from app.figures.studies import Influence, influence
+from app.figures.units import axis_of
+from app.figures.wording import difference_unit
+from app.models.scuffing.request import GIVEN_BULK
+from app.pages.query import link
+from app.pages.studies.controls import numbered
+from app.pages.studies.page import Link, Number, Result, StudyPage, Table
+from app.pages.study_kinds import INFLUENCE, VARY
+from app.pages.typesetting import shown
+from app.studies.kinds.sensitivity import Sensitivity
+from app.studies.runner import Line
+
+MOST_ROWS = 40  # largest number of rows of the table, so that a user can read the table; the file has all rows
+
+
+class SensitivityPage(StudyPage):
+    """The page that shows the inputs with the greatest influence on an output."""
+
+    link = INFLUENCE
+    question = "which input matters?"
+    about = (
+        "Every number of the case is changed by its usual tolerance. A number without a usual tolerance is changed by "
+        "1 % (temperatures by 1 K, whole numbers by 1)."
+    )
+    figures = ("influence",)
+    plan = Sensitivity
+
+    def body(self) -> dict[str, Any]:
+        """Return the body of the study: the endpoint, the request of the case, and the output that the page shows."""
+        outputs = [self.output.path]
+        return {"endpoint": self.calculation.path, "request": self.asked.body, "outputs": outputs}
+
+    def result(self, lines: list[Line]) -> Result:
+        """Return a bar chart and a table of the inputs.
+
+        Chart and table show how much the output changes if an input is changed by one step. The input that changes the
+        output most comes first.
+        """
+        end, output = lines[-1], self.output
+        inputs = {moved["path"]: moved for moved in end["inputs"]}
+        steps, rows = list[Influence](), []
+        for line in lines:
+            if line["type"] == "sensitivity" and line["change"] is not None:
+                path, moved = line["path"], inputs[line["path"]]
+                name, unit = numbered(moved["title"], path), moved["unit"] or ""
+                step = f"+{shown(line['step'], 3)} {difference_unit(unit)}".rstrip()
+                varied = {"x": path, "show": output.path, "theme": self.asked.theme}
+                row = (
+                    Link(name, link(f"{self.asked.path}/{VARY.name}", self.asked.pairs, **varied)),
+                    shown(float(moved["value"])),
+                    unit,
+                    step,
+                    shown(line["change"], 4),
+                    shown(line["elasticity"], 3),
+                    "up and down differ" if line["kink"] else "half a step differs" if line["curved"] else "",
+                )
+                steps.append(Influence(name, step, line["change"], bool(line["kink"])))
+                rows.append(row)
+        value, figures, remarks = end["outputs"][0]["value"], dict[str, Figure](), []
+        if not isinstance(value, int | float):
+            remarks.append(f"The case has no value of the {output.title}; choose another output.")
+        elif (figure := influence(axis_of(output), float(value), steps)).panels:
+            figures["influence"] = figure
+        else:
+            remarks.append(f"No input changes the {output.title} of this case.")
+        if GIVEN_BULK in {assumption["reason"] for assumption in end["assumptions"]}:
+            remarks.append(f"Oil temperature: {GIVEN_BULK}.")
+        changes = f"changes the {output.title} by{f', {difference_unit(output.unit)}' if output.unit else ''}"
+        head = ("input", Number("value"), "unit", Number("one step"), Number(changes), Number("% for 1 %"), "remark")
+        more = len(rows) - MOST_ROWS
+        note = "Click a name to see the curve over this input."
+        note += f" {more} inputs more change it less." if more > 0 else ""
+        table = Table("Inputs, the most influential first", head, rows[:MOST_ROWS], note)
+        progress = f"{end['points']} cases in {shown(end['elapsed_s'], 2)} s"
+        return Result(progress, figures, (table,) if rows else (), tuple(remarks))

@@ -1,0 +1,458 @@
+"""The page of a load spectrum: probabilities of exceeding a limit, what decides, and the losses.
+
+The user pastes the cases as a table, chooses the fields that scatter, and states a tolerance for each of these fields.
+"""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Any
+
+from app.calculations import Calculation
+from app.errors import Unprocessable
+from app.figures.data import Figure, NoFigure
+from app.figures.spectrum import Limited, LimitedCase, chance_text, chances, deciding, losses, overlap, sentence
+from app.figures.units import axis_of
+from app.figures.wording import difference_unit, number, percent
+from app.pages.form import FieldView
+from app.pages.query import Pairs, link, pairs_of
+from app.pages.studies.controls import Control, field_choices, is_number, texts_of
+from app.pages.studies.load_cases import cases_of, suggested, table_of
+from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table
+from app.pages.study_kinds import CASES, SPECTRUM, TOLERANCES
+from app.pages.study_links import Starter
+from app.pages.templating import page_path
+from app.pages.typed import as_typed
+from app.pages.typesetting import cited, shown
+from app.schema.fields import leaf_at
+from app.studies.fields import scalar_at, value_at
+from app.studies.kinds.spectrum import RELATIVE_DEVIATION, SCUFFING, Spectrum
+from app.studies.points import SOLVED
+from app.studies.requests import DRIVE_TRAIN, EXAMPLES
+from app.studies.runner import Line
+
+REPLICATES = 8  # number of independent samples on the page; the scatter of their means gives the error of a mean
+MACHINES = (("", "256"), ("64", "64"), ("1024", "1024"), ("4096", "4096"))
+LAWS = (("", "normal"), ("uniform", "uniform"), ("triangular", "triangular"), ("lognormal", "lognormal"))
+SIDES = (("", "by the output"), ("above", "above is bad"), ("below", "below is bad"))
+LOSSES = {
+    "/v1/coupling": ("losses.friction_power_w",),
+    "/v1/pumping": ("total.pumping_power_w",),
+    "/v1/scuffing/load-distribution": ("friction_loss.power_w",),
+    "/v1/scuffing": ("friction_loss.power_w",),
+    DRIVE_TRAIN: ("losses.coupling_w", "losses.pumping_w", "losses.mesh_w", "losses.bearings_w"),
+}
+MOST_BARS = 40  # number of bars that fit side by side on a page
+
+
+CONTROLS = (
+    Control(CASES, "cases", "", str),
+    Control("machines", "tolerances.count", int(MACHINES[0][1])),
+    Control("hours", "hours_per_year"),
+    Control("limit", "limit.value"),
+    Control("limit.side", "limit.side", read=str),
+    Control("limit.by", "limit.deviation"),
+)
+TOLERANCE = (
+    Control("", "path", read=str),
+    Control(".law", "distribution", "normal", str),
+    Control(".about", "mean"),
+    Control(".by", "deviation"),
+)
+"""The controls of a tolerance, with only the last parts of their names; `_tolerance` adds the first parts.
+
+The paths `mean` and `deviation` hold the typed mean and the typed width, whatever the distribution is.
+"""
+STATED = {"normal": ("mean", "deviation"), "lognormal": ("median", "factor")}
+"""For each distribution, the parameter that is set to the typed mean and the parameter that is set to the typed width.
+
+The other distributions have the parameters `min` and `max`; the triangular distribution also has `mode`.
+"""
+
+
+def _tolerance(place: int, name: str, about: Any = None, by: Any = None) -> list[Control]:
+    """Return the controls of a tolerance. The default of the mean is `about`, and the default of the width is `by`."""
+    usual = {"mean": about, "deviation": by}
+    return [
+        part._replace(
+            name=f"{name}{part.name}",
+            path=f"tolerances.inputs.{place}.{part.path}",
+            default=usual.get(part.path, part.default),
+        )
+        for part in TOLERANCE
+    ]
+
+
+def _stated(law: str, about: Any, by: Any) -> dict[str, Any]:
+    """Convert mean and width into the parameters of a distribution.
+
+    The result is empty if the distribution is not known; the validation of the body then reports the error.
+    """
+    if names := STATED.get(law):
+        return dict(zip(names, (about, by), strict=True))
+    ends = {"uniform": ("min", "max"), "triangular": ("min", "mode", "max")}.get(law, ())
+    return {end: {"min": about - by, "mode": about, "max": about + by}[end] for end in ends}
+
+
+def _typed(scatter: dict[str, Any]) -> dict[str, Any]:
+    """Convert a distribution in the body into the values of the controls.
+
+    The controls have no mode, so a triangular distribution gets its mode in the middle of its range.
+    """
+    law = scatter["distribution"]
+    if names := STATED.get(law):
+        about, by = (scatter[name] for name in names)
+    else:
+        about, by = (scatter["min"] + scatter["max"]) / 2, (scatter["max"] - scatter["min"]) / 2
+    return {"path": scatter["path"], "distribution": law, "mean": about, "deviation": by}
+
+
+def address_of(
+    endpoint: Calculation, request: Pairs, body: dict[str, Any], file: Mapping[str, str] = MappingProxyType({})
+) -> str:
+    """Return the address of the page that shows the study with this body.
+
+    If the body has several limits, the address contains only the first limit. `file` names the file from which the
+    study was read.
+    """
+    inputs, views = [_typed(scatter) for scatter in (body.get("tolerances") or {"inputs": []})["inputs"]], dict(file)
+    given = {
+        "cases": table_of(endpoint, body["cases"]),
+        "tolerances": {"inputs": inputs},
+        "hours_per_year": body.get("hours_per_year"),
+    }
+    for limit in (body.get("limits") or ())[:1]:
+        (side,) = {"above", "below"} & set(limit)
+        threshold = limit[side]
+        views["show"] = limit["output"]
+        given["limit"] = {"value": threshold.get("mean"), **threshold, "side": side}
+    of_tolerances = (part for place in range(len(inputs)) for part in _tolerance(place, TOLERANCES[place]))
+    controls = [*CONTROLS, *of_tolerances]
+    return link(f"{page_path(endpoint)}/{SPECTRUM.name}", request, **views, **texts_of(controls, given))
+
+
+class SpectrumPage(StudyPage):
+    """The page that shows the study of a load spectrum."""
+
+    link = SPECTRUM
+    question = "its load spectrum"
+    about = (
+        "Random machines are drawn from the tolerances. Each machine runs every case, and its worst case is compared "
+        "with the limit."
+    )
+    figures = ("limit", "probability", "decides", "losses")
+    outputs = tuple(paths.contact for paths in SCUFFING.values())
+    needs = ("cases", *TOLERANCES)
+    choose = (
+        "The table of cases lists what changes in each part of the operating time. The tolerances state how the "
+        "fields scatter."
+    )
+    plan = Spectrum
+    study: Spectrum
+
+    def body(self) -> dict[str, Any]:
+        """Return the body with the typed cases, tolerances and limit.
+
+        The requested outputs are the output that the page shows, and the losses.
+        """
+        calculation, output, given = self.calculation, self.output.path, self.given()
+        tolerances = given["tolerances"]
+        typed = tolerances.get("inputs", [])
+        inputs = [self._scatter(scatter, f"tolerances.inputs.{place}") for place, scatter in enumerate(typed)]
+        machines = tolerances["count"]
+        if not isinstance(machines, int):
+            raise Unprocessable("int_type", "give a whole number", "tolerances.count")
+        tolerances = {"inputs": inputs, "count": machines // REPLICATES, "replicates": REPLICATES}
+        return {
+            "endpoint": calculation.path,
+            "request": self.asked.body,
+            "cases": cases_of(calculation, given["cases"]),
+            "tolerances": tolerances if inputs else None,
+            "outputs": list(dict.fromkeys([output, *LOSSES.get(calculation.path, ())])),
+            "limits": self._limits(given.get("limit", {})),
+            "hours_per_year": given.get("hours_per_year"),
+        }
+
+    def _given(self) -> list[str]:
+        """Return the names of the tolerances for which the user has entered values, in the order of the form."""
+        return [name for name in TOLERANCES if self.views.get(name)]
+
+    def declared(self) -> tuple[Control, ...]:
+        """Return the controls for cases, machines, hours of operation, limit and tolerances.
+
+        The default mean of a tolerance is the value of the field in the case.
+        """
+        controls = [
+            *CONTROLS,
+            Control("machines", "tolerances", sets=False),
+            Control("limit", "limits", sets=False),
+        ]
+        for place, name in enumerate(self._given()):
+            path = self.views[name]
+            leaf, where = self.field_at(path), f"tolerances.inputs.{place}"
+            controls += _tolerance(place, name, value_at(self.case, path), leaf.declared.tolerance if leaf else None)
+            controls += (
+                Control(f"{name}.about", f"{where}.median", sets=False),
+                Control(f"{name}.by", where, sets=False),
+            )
+        return (*controls, *(Control(name, "tolerances.inputs", sets=False) for name in self._given()[:1]))
+
+    def _scatter(self, given: dict[str, Any], where: str) -> dict[str, Any]:
+        """Convert what the user typed for a tolerance into the form in which a request states a distribution.
+
+        `given` holds the path of the field, the name of the distribution, the mean and the width.
+        """
+        leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
+        about: Any = given.get("mean")
+        by: Any = given.get("deviation")
+        for value, lacks in (
+            (about, "the value around which the field scatters"),
+            (by, "the amount by which the field scatters"),
+        ):
+            if not is_number(value):
+                raise Unprocessable("missing", f"{leaf.title}: give {lacks}", where)
+        law = given["distribution"]
+        return {"path": leaf.path, "distribution": law, **_stated(law, about, by)}
+
+    @property
+    def _assumes_limit(self) -> bool:
+        """True if the scuffing temperature is the default limit of the output that the page shows."""
+        scuffing = SCUFFING.get(self.calculation.path)
+        return scuffing is not None and (self.views.get("show") or self.usual_output.path) == scuffing.contact
+
+    def _limits(self, given: dict[str, Any]) -> list[dict[str, Any]] | None:
+        """Return a list with the limit of the output, or an empty list if the output has no limit.
+
+        If the user typed no limit, the usual limit of the output is used; but if this usual limit is the scuffing
+        temperature, return None, because the study then adds the limit itself. Raises Unprocessable if the user typed a
+        deviation but no value.
+        """
+        view, scatter, value = self.output.view, given.get("deviation"), given.get("value")
+        if value is None and view.bound and isinstance(view.limit, int | float) and not self._assumes_limit:
+            value = view.limit
+        if value is None and scatter is not None:
+            raise Unprocessable(
+                "missing",
+                "the limit has a deviation but no value; give the value as well",
+                "limits.0.above",
+            )
+        if value is None:
+            return None if self._assumes_limit else []
+        side = given.get("side") or ("below" if view.greatest_is_best else "above")
+        threshold = {"value": value} if scatter is None else {"mean": value, "deviation": scatter}
+        return [{"output": self.output.path, side: threshold}]
+
+    def controls(self) -> tuple[Controls, ...]:
+        """Return a group of form fields for the table of cases, and one group per tolerance.
+
+        After the group of the last tolerance that is filled in, there are two empty groups for further tolerances. The
+        number of groups for tolerances is limited to the number of names in `TOLERANCES`.
+        """
+        case = self.case
+        text = as_typed(self.views.get("cases", "")) or suggested(self.calculation, case)
+        about = (
+            "The first line names the columns: name, share (of the operating time), and fields as in the form.",
+            "One line per case; columns are separated by tabs or semicolons, as in a spreadsheet.",
+            "An empty cell leaves the value of the case unchanged.",
+        )
+        table = replace(self.field("cases", "cases"), widget="table", text=text, help=about)
+        groups = [Controls("Load spectrum", fields=(table,))]
+        last = max((place for place, name in enumerate(TOLERANCES) if self.views.get(name)), default=-1)
+        choices = field_choices(self.calculation, case, texts=False) if self.asked.pairs else []
+        for place, name in enumerate(TOLERANCES[: last + 3]):
+            path = self.views.get(name, "")
+            leaf, own = leaf_at(self.calculation.request, path), value_at(case, path)
+            unit, usual = (leaf.unit or "", leaf.declared.tolerance) if leaf else ("", None)
+            fields = (
+                self.field(f"{name}.law", "distribution", options=LAWS),
+                self.field(f"{name}.by", "by", usual, difference_unit(unit) or ""),
+                self.field(f"{name}.about", "around", own, unit),
+            )
+            groups.append(Controls(f"Tolerance {place + 1}", self.menu(name, "field", "none", choices), fields))
+        return tuple(groups)
+
+    def shows(self) -> tuple[FieldView, ...]:
+        """Return the form fields for the limit of the output, the number of machines and the hours of operation."""
+        assumed = self._assumes_limit and not self.views.get("limit")
+        deviation = f"{percent(RELATIVE_DEVIATION)} of it" if assumed else "none"
+        return (
+            self.field("limit", "limit", "its own"),
+            self.field("limit.by", "deviation of the limit", deviation),
+            self.field("limit.side", "side", options=SIDES),
+            self.field("machines", "machines drawn", options=MACHINES),
+            self.field("hours", "hours a year"),
+        )
+
+    def starters(self) -> Sequence[Starter]:
+        """Return links to the ready studies of /v1/spectrum. If the query has a case, return no links."""
+        starters = []
+        for example in EXAMPLES["/v1/spectrum"].values():
+            body = example["value"]
+            if body["endpoint"] == self.calculation.path and not self.asked.pairs:
+                address = address_of(self.calculation, pairs_of(body["request"]), body)
+                starters.append(Starter(example["summary"], "example", address))
+        return starters
+
+    def result(self, lines: list[Line]) -> Result:
+        """Return the figures and tables of the study.
+
+        They show the probability of exceeding the limit, the cases that are most often the worst case, the influence of
+        the tolerances, and the losses.
+        """
+        header, end, output = lines[0], lines[-1], self.output
+        cases = len(self.study.cases)
+        machines = end["points"] // cases
+        counted = [f"{count} {noun}{'s' * (count > 1)}" for count, noun in ((machines, "machine"), (cases, "case"))]
+        progress = f"{' in '.join(counted)}, {shown(end['elapsed_s'], 2)} s"
+        figures, notes = dict[str, Figure](), [*end["notes"]]
+        limit = next((content for content in end["limits"] if content["output"] == output.path), None)
+        if limit is not None:
+            limited, conclusion = self._limited(end, limit), sentence(limit)
+            progress = f"{conclusion[0].upper()}{conclusion[1:]}; {progress}"
+            for name, draw in (("limit", overlap), ("probability", chances), ("decides", deciding)):
+                try:
+                    figures[name] = draw(limited)
+                except NoFigure as error:
+                    notes.append(error.message)
+        elif not notes:
+            notes.append(f"the {output.title} has no limit here; state a limit to get a probability")
+        unsolved = end["points"] - sum(end["counts"].get(status, 0) for status in SOLVED)
+        if unsolved:
+            notes.append(
+                f"{unsolved} of {end['points']} points have no solution. Each probability is a range: these points "
+                "count as good at the lower end and as bad at the upper end"
+            )
+        tables = (
+            *((self._limit_table(end, limit),) if limit else ()),
+            self._cases_table(end, limit),
+            self._outputs_table(end),
+            *((_tolerances_table(header, limit),) if header["tolerances"] else ()),
+        )
+        remarks = tuple(f"{note[0].upper()}{note[1:]}." for note in notes)
+        leads = (Link("Report with this spectrum", self.view("/report")),)
+        return Result(progress, figures | self._losses(end), tables, remarks, leads)
+
+    def _limited(self, end: Line, limit: Line) -> Limited:
+        """Return the data that the figures about a limit show.
+
+        If there are more than `MOST_BARS` cases, the data contain only the cases that are most often beyond the limit.
+        """
+        place = end["limits"].index(limit)
+        decides = limit["decides"] or [None] * len(end["cases"])
+        cases = [
+            LimitedCase(case["name"], case["quantiles"][self.output.path], case["limits"][place], share)
+            for case, share in zip(end["cases"], decides, strict=True)
+        ]
+        worst = sorted(cases, key=lambda case: -case.chance["bounds"][1])[:MOST_BARS]
+        titles = {leaf.path: leaf.title for leaf in self.study.scattering}
+        ranks = limit["rank_correlation"] or {}
+        influences = {titles[path]: value for path, value in ranks.items() if value is not None}
+        return Limited(axis_of(self.output), limit, [case for case in cases if case in worst], influences)
+
+    def _losses(self, end: Line) -> dict[str, Figure]:
+        """Return a dictionary with one figure, which shows the mean losses in each case [kW].
+
+        If no loss has a mean value, the dictionary is empty.
+        """
+        wanted, outputs = LOSSES.get(self.calculation.path, ()), end["outputs"]
+        titles = {leaf.path: leaf.title for leaf in self.study.outputs}
+        drawn_losses = {path: titles[path] for path in wanted if outputs[path]["mean"] is not None}
+        if not drawn_losses:
+            return {}
+        cases = {
+            case["name"]: {title: (case["means"][path] or 0.0) / 1e3 for path, title in drawn_losses.items()}
+            for case in end["cases"][:MOST_BARS]
+        }
+        mean = {title: outputs[path]["mean"] / 1e3 for path, title in drawn_losses.items()}
+        years = [outputs[path].get("energy_kwh_per_year") for path in drawn_losses]
+        return {"losses": losses(cases, mean, None if None in years else sum(years) / 1e3)}
+
+    def _limit_table(self, end: Line, limit: Line) -> Table:
+        """Return a table that states the limit, its standard deviation and its source."""
+        reasons = (assumption["reason"] for assumption in end["assumptions"] if assumption["field"] == "limits")
+        reason = next(reasons, None)
+        row = (
+            self.output.title,
+            f"not {limit['side']}",
+            shown(limit["mean"], 4),
+            "exact" if limit["deviation"] is None else _deviation(limit["deviation"], self.output.unit, 4),
+            self.output.unit or "",
+            "given" if reason is None else f"assumed: {cited(reason)}",
+        )
+        return Table("Limit", ("output", "side", Number("limit"), Number("deviation"), "unit", "source"), (row,))
+
+    def _cases_table(self, end: Line, limit: Line | None) -> Table:
+        """Return a table with one row per load case.
+
+        A row has the case's share of the operating time, the probability of exceeding the limit, the fraction of
+        machines for which the case is the worst case, the quantiles of the output, and the fraction of machines without
+        a solution.
+        """
+        output, rows = self.output, list[tuple[str | Link, ...]]()
+        for index, (case, content) in enumerate(zip(self.study.cases, end["cases"], strict=True)):
+            row: list[str | Link] = [Link(content["name"], self.address(case.set)), percent(content["share"])]
+            if limit:
+                row.append(chance_text(content["limits"][end["limits"].index(limit)]))
+                row.append(percent(limit["decides"][index]) if limit["decides"] else "–")
+            row += [shown(value, 4) for value in content["quantiles"][output.path] or [None] * 3]
+            rows.append((*row, percent(content["unsolved"])))
+        unit = f", {output.unit}" if output.unit else ""
+        judged = ("probability alone", "decides") if limit else ()
+        heads = ("share", *judged, f"5 %{unit}", "50 %", "95 %", "unsolved")
+        note = (
+            f"The columns state, for each case, the values of {output.title} below which 5, 50 and 95 % of the "
+            "machines lie."
+        )
+        return Table("Cases", ("case", *map(Number, heads)), rows, f"{note} Click a name to open the nominal case.")
+
+    def _outputs_table(self, end: Line) -> Table:
+        """Return a table with one row per output: the mean over the operating time, and the extremes.
+
+        Each extreme is printed as a link that opens the machine and the case with this extreme.
+        """
+        rows = []
+        for leaf in self.study.outputs:
+            content = end["outputs"][leaf.path]
+            ends = (
+                Link(shown(extreme["value"], 4), self.address(extreme["at"])) if extreme else "–"
+                for extreme in (content["min"], content["max"])
+            )
+            mean, error = shown(content["mean"], 4), _deviation(content["standard_error"], leaf.unit, 2)
+            energy = shown(content.get("energy_kwh_per_year"), 4)
+            rows.append((leaf.title, mean, error, *ends, leaf.unit or "", energy))
+        heads = map(Number, ("mean", "standard error", "least", "largest"))
+        head = ("output", *heads, "unit", Number("kWh a year"))
+        return Table(
+            "Over the operating time", head, rows, "Click a number to open the machine and the case with this value."
+        )
+
+
+def _deviation(value: float | None, unit: str | None, digits: int) -> str:
+    """Return a difference of two values as text.
+
+    `unit` is the unit of the values. If a difference has another unit (K instead of degrees Celsius), the text states
+    this other unit.
+    """
+    own = difference_unit(unit)
+    return shown(value, digits) if own == unit or value is None else number(value, own, digits)
+
+
+def _tolerances_table(header: Line, limit: Line | None) -> Table:
+    """Return a table of the fields that scatter, with their distributions.
+
+    For each field, the table states how large a share of the distribution is cut off. The table also states the rank
+    correlation between the value of the field and the output in the worst case.
+    """
+    numbers = ("mean", "deviation", "median", "factor", "min", "mode", "max")
+    ranks = (limit and limit["rank_correlation"]) or {}
+    rows = []
+    for scatter in header["tolerances"]["inputs"]:
+        stated = {name: shown(scatter[name], 4) for name in numbers if scatter.get(name) is not None}
+        if "deviation" in stated:
+            stated["deviation"] = _deviation(scatter["deviation"], scatter["unit"], 4)
+        law = ", ".join(f"{name} {value}" for name, value in stated.items())
+        described = (scatter["title"], f"{scatter['distribution']}: {law}", scatter["unit"] or "")
+        rows.append((*described, percent(scatter["cut_off"]), shown(ranks.get(scatter["path"]), 3)))
+    head = ("field", "distribution", "unit", Number("cut off"), Number("rank"))
+    note = '"Cut off" is the share of values beyond four deviations or outside the range of the field'
+    return Table("Tolerances", head, rows, f'{note}. "Rank" is the rank correlation with the worst case.')
