@@ -12,11 +12,10 @@ from time import perf_counter
 from typing import Any
 
 from app.calculations import BY_PATH
-from app.examples import examples
+from app.examples import examples, study_bodies
 from app.studies.kinds.corners import Corners
 from app.studies.kinds.design import Design
 from app.studies.point_sets import usual_corners
-from app.studies.requests import EXAMPLES
 from app.studies.runner import Clock, Study
 from solvers.drive_train.gap.thermal_lead import gas_heat
 from solvers.drive_train.outcome import outcome
@@ -61,7 +60,7 @@ def corners() -> None:
 
 def search() -> None:
     """Run the design search of the example, with 12 corners and 3 variables."""
-    run(Design, {**EXAMPLES["/v1/drive-train/design"]["robust"]["value"], "request": REQUEST})
+    run(Design, {**study_bodies("/v1/drive-train/design")["robust"]["value"], "request": REQUEST})
 
 
 def run(study_of: Callable[[Any, int, float], Study], body: dict[str, Any]) -> None:

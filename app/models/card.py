@@ -82,6 +82,7 @@ class Words:
     of_the_film    outputs that need the thermal film, beside those with `thermal_ehl` in their path; None: no film
     from_file      what a request takes from a REXS file; None: files make no such request
     to_file        results that go back into a REXS file
+    chapters       the chapters of the manual about optional sections, by section
     """
 
     verdicts: Callable[[Any], dict[str, Verdict]] = _nothing
@@ -92,6 +93,7 @@ class Words:
     of_the_film: frozenset[str] | None = None
     from_file: FromFile | None = None
     to_file: tuple[FileResult, ...] = ()
+    chapters: Mapping[str, str] = field(default_factory=dict)
 
 
 class Cost(NamedTuple):
@@ -125,8 +127,13 @@ class Calculation:
 
 @dataclass(frozen=True, slots=True)
 class Card:
-    """A model: the name of its chapter, its endpoints, and the figure of the first one that the start page shows."""
+    """A model: the name of its chapter, its endpoints, and what the start page shows.
+
+    `subject` is what its pages hand to those of other models: a gear "pair", a "coupling", or nothing.
+    `start_figure` is the figure of the first endpoint on the start page.
+    """
 
     name: str
     endpoints: tuple[Calculation, ...]
+    subject: str = ""
     start_figure: str = ""

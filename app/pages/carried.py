@@ -9,15 +9,13 @@ from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 from urllib.parse import urlencode
 
-from app.calculations import BY_PATH, CALCULATIONS, Calculation
+from app.calculations import BY_PATH, CALCULATIONS, Calculation, card_of
 from app.pages.cases import Asked
 from app.pages.query import LONGEST_QUERY, Pairs, link, pairs_of_query
 from app.pages.templating import page_path
 from app.schema.fields import ITEM, Branch, Leaf, branches, leaf_at, tree
 from app.schema.model import Documented
 
-SUBJECTS = {"gears": "pair", "coupling": "coupling"}
-"""The sections that several calculations share, and what each section describes: a gear pair or a coupling."""
 LOAD, OPERATION = "load.", "operation."
 """Two prefixes of field names that denote the same section.
 
@@ -39,7 +37,7 @@ class Use(NamedTuple):
 
 def subject_of(calculation: Calculation) -> str:
     """Return what a calculation describes: "pair" for a gear pair, "coupling" for a coupling, otherwise ""."""
-    return next((name for section, name in SUBJECTS.items() if section in branches(calculation.request)), "")
+    return card_of(calculation).subject
 
 
 def uses(asked: Asked) -> list[Use]:

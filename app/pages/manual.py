@@ -3,12 +3,10 @@
 Markdown becomes HTML, equations become MathML, and pictures are replaced by the figures of the running service.
 """
 
-import json
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
-from importlib.resources import files
 from itertools import pairwise
 from typing import Any, NamedTuple
 
@@ -22,7 +20,7 @@ from mdit_py_plugins.anchors import anchors_plugin
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
-from app.examples import examples
+from app.examples import examples, studies
 from app.manual import FIELDS, NAMES, Chapter, chapters
 from app.manual.equations import anchor, equations, functions
 from app.manual.fields import COLUMNS, SECTIONS, Models, table
@@ -181,13 +179,13 @@ class ShownStudy:
 @cache
 def shown_studies() -> dict[str, ShownStudy]:
     """Return the studies that chapters show. The keys are the names of the pictures."""
-    studies = {}
-    for name, entry in json.loads(files("app.manual").joinpath("studies.json").read_text("utf-8")).items():
+    shown = {}
+    for name, entry in ((name, entry) for model in studies() for name, entry in model.pictures.items()):
         example = examples()[entry["example"]]
         pairs = [*(dict(pairs_of(example.request)) | entry["set"]).items()]
         path = page_path(BY_PATH[example.endpoint])
-        studies[name] = ShownStudy(entry["title"], path, pairs, entry["page"], entry["controls"], entry["figure"])
-    return studies
+        shown[name] = ShownStudy(entry["title"], path, pairs, entry["page"], entry["controls"], entry["figure"])
+    return shown
 
 
 def _html(text: str, root: str, chapter: str | None = None) -> Markup:

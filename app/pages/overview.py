@@ -6,9 +6,8 @@ from itertools import chain
 from math import pi
 from typing import Any
 
-from app.calculations import BY_PATH, CARDS, Calculation
+from app.calculations import BY_PATH, Calculation, card_of
 from app.manual import chapters
-from app.models.card import Card
 from app.pages.form import title_of
 from app.pages.query import link, pairs_of
 from app.pages.studies.spectrum import address_of
@@ -54,11 +53,6 @@ def _entry(calculations: list[Calculation]) -> dict[str, Any]:
         ],
         "studies": [study for calculation in calculations for study in studies_of(calculation)[:1]],
     }
-
-
-def card_of(calculation: Calculation) -> Card:
-    """Return the card of the model to which a calculation belongs."""
-    return next(card for card in CARDS if calculation in card.endpoints)
 
 
 def unit_page(root: str, unit: dict[str, Any], name: str = "", sha256: str = "") -> str:

@@ -21,7 +21,6 @@ from app.pages.results import flattened, resolved, texts_of
 from app.pages.typesetting import cited
 from app.schema.fields import Leaf, leaf_at
 
-SECTION_CHAPTERS = {"heat": "heat-balance"}  # chapters whose name differs from the name of the section
 LOCAL = "http://localhost:8000"
 LABELS = {name: name for name in REPORT_NAMES} | {
     "checker": "checked by",
@@ -127,9 +126,9 @@ def _origins(cells: dict[int, Cell]) -> set[str]:
 
 def _chapters_behind(case: SolvedCase) -> list[Chapter]:
     """Return the chapter about the calculation, and the chapters about the optional sections of the answer."""
-    present = (name for name in type(case.response).model_fields if getattr(case.response, name) is not None)
-    sections = [SECTION_CHAPTERS.get(name, name) for name in present]
-    return [chapter_of(case.calculation), *(chapters()[name] for name in sections if name in chapters())]
+    own = case.calculation.words.chapters
+    behind = [chapter for section, chapter in own.items() if getattr(case.response, section) is not None]
+    return [chapter_of(case.calculation), *(chapters()[name] for name in behind)]
 
 
 def _said(name: str, text: str, longest: int) -> str:

@@ -1,16 +1,14 @@
 """The studies of a case, and ready studies, which vary one or two fields of an example.
 
-The ready studies are the entries of `sweep_examples.json`.
+The ready studies are those of the models' examples.
 """
 
-import json
 from collections.abc import Mapping
-from importlib.resources import files
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from app.calculations import BY_PATH, Calculation
-from app.examples import examples
+from app.examples import examples, studies
 from app.pages.query import Pairs, link, pairs_of
 from app.pages.study_kinds import LINKS, VARY, StudyLink
 from app.pages.templating import page_path
@@ -53,9 +51,7 @@ class Starter(NamedTuple):
     address: str
 
 
-STUDIES = tuple(
-    StudyExample(**entry) for entry in json.loads(files("app.pages").joinpath("sweep_examples.json").read_text("utf-8"))
-)
+STUDIES = tuple(StudyExample(**entry) for model in studies() for entry in model.pages)
 
 
 def studies_of(calculation: Calculation) -> list[StudyExample]:

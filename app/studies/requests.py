@@ -1,14 +1,11 @@
 """Common parts of the bodies of studies: paths and values of fields, axes, distributions, and the request to vary."""
 
-import json
 import re
-from importlib.resources import files
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema, model_validator
 from pydantic_core import PydanticCustomError
 
-from app.examples import examples
 from app.schema.quantities import Input
 
 MOST_FIELDS_TOGETHER = 50  # largest number of fields that one axis moves, chosen
@@ -209,11 +206,3 @@ class DriveTrainStudy(Part):
     endpoint: ClassVar[str] = DRIVE_TRAIN
 
     request: Annotated[dict[str, Any], Input("request", text="the request of /v1/drive-train")]
-
-
-EXAMPLES: dict[str, dict[str, Any]] = json.loads(files("app.studies").joinpath("examples.json").read_text("utf-8"))
-"""Example bodies for each path of a study. An example has the form of an OpenAPI example: a `summary` and a `value`."""
-
-for _bodies in EXAMPLES.values():
-    for _each in _bodies.values():
-        _each["value"]["request"] = examples()[_each["value"]["request"]].request

@@ -134,3 +134,35 @@ def test_no_room_imports_a_higher_one() -> None:
     arrows = {(room(name_of(path)), room(other)) for path in MODULES for other in modules_imported(path)}
     upward = [(one, two) for one, two in arrows if one and two and ROOMS.index(one) < ROOMS.index(two)]
     assert upward == []
+
+
+def test_what_is_known_about_a_model_is_on_its_card() -> None:
+    """Outside `app/models`, no dictionary has the path of an endpoint or of one of its fields as a key."""
+    from app.calculations import CALCULATIONS  # noqa: PLC0415  the rest of this module reads sources only
+    from app.schema.fields import leaves  # noqa: PLC0415
+
+    models = (model for calculation in CALCULATIONS for model in (calculation.request, calculation.response))
+    paths = {leaf.path for model in models for leaf in leaves(model) if "." in leaf.path}
+    paths |= {calculation.path for calculation in CALCULATIONS}
+    found = []
+    for path in (ROOT / "app").rglob("*.py"):
+        if "models" not in path.relative_to(ROOT).parts:
+            names = dict(constants(path))
+            keys = (key for node in ast.walk(tree(path)) if isinstance(node, ast.Dict) for key in node.keys)
+            values = ((key, names.get(key.id) if isinstance(key, ast.Name) else value_of(key)) for key in keys if key)
+            found += [f"{name_of(path)}:{key.lineno} {value}" for key, value in values if value in paths]
+    assert found == []
+
+
+def value_of(node: ast.expr) -> object:
+    return node.value if isinstance(node, ast.Constant) else None
+
+
+def constants(path: Path) -> Iterator[tuple[str, object]]:
+    """Yield the names of texts that a module assigns or imports from a module of the project."""
+    for node in tree(path).body:
+        if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
+            yield node.targets[0].id, value_of(node.value)
+        elif isinstance(node, ast.ImportFrom) and node.module in NAMES - PACKAGES:
+            there = dict(constants(ROOT / f"{node.module.replace('.', '/')}.py"))
+            yield from ((alias.asname or alias.name, there.get(alias.name)) for alias in node.names)

@@ -13,7 +13,7 @@ import pytest
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import Unprocessable
-from app.examples import examples
+from app.examples import examples, study_bodies
 from app.pages.query import pairs_of
 from app.pages.studies import page as pages
 from app.pages.studies.load_cases import cases_of, table_of
@@ -22,7 +22,6 @@ from app.pages.studies.spectrum import SpectrumPage, address_of
 from app.pages.studies.stream import report_pieces
 from app.schema.fields import ITEM, leaves
 from app.studies.kinds.spectrum import Spectrum
-from app.studies.requests import EXAMPLES
 from app.studies.runner import Clock
 from tests.support.pages import DEADLINE_S, asked, asked_by, checked, fault_at, lines_of, whole
 
@@ -137,13 +136,13 @@ def test_controls_of_a_study_are_read_as_fields_are(client: httpx.Client) -> Non
     assert 'value="4.500"' in doubt.text
 
 
-@pytest.mark.parametrize("name", EXAMPLES["/v1/spectrum"])
+@pytest.mark.parametrize("name", study_bodies("/v1/spectrum"))
 def test_ready_studies_are_those_of_the_interface(name: str) -> None:
     """The page of an example from the API has the cases, tolerances and limits of the example.
 
     The number of machines is the default of the page: 8 replicates of 32 machines.
     """
-    body = EXAMPLES["/v1/spectrum"][name]["value"]
+    body = study_bodies("/v1/spectrum")[name]["value"]
     calculation = BY_PATH[body["endpoint"]]
     question = asked_by(address_of(calculation, pairs_of(body["request"]), body))
     path = question.path.removesuffix("/spectrum")
@@ -159,13 +158,13 @@ def test_ready_studies_are_those_of_the_interface(name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", EXAMPLES["/v1/spectrum"])
+@pytest.mark.parametrize("name", study_bodies("/v1/spectrum"))
 def test_customers_read_where_a_limit_comes_from(client: httpx.Client, name: str) -> None:
     """For gears, the page and the report cite a secondary source for the deviation of the scuffing temperature.
 
     For the coupling, the deviation of the limit is given.
     """
-    body = EXAMPLES["/v1/spectrum"][name]["value"]
+    body = study_bodies("/v1/spectrum")[name]["value"]
     address = address_of(BY_PATH[body["endpoint"]], pairs_of(body["request"]), body) + "&machines=8"
     page = client.get(address)
     report = client.get(address.replace("/spectrum?", "/spectrum/report?"))

@@ -9,11 +9,10 @@ import httpx
 import pytest
 
 from app.calculations import BY_PATH
-from app.examples import examples
+from app.examples import examples, study_bodies
 from app.schema.fields import headlines
 from app.studies.kinds.corners import Corners
 from app.studies.kinds.design import Design
-from app.studies.requests import EXAMPLES
 from tests.support.requests import Post, changed, refusals, value_at
 
 COUPLING = examples()["pahl-heavily-crowned"]
@@ -158,15 +157,15 @@ def test_table_has_the_numbers_of_the_lines(post: Post) -> None:
     assert [float(row[3]) for row in rows] == [point["out"][0] for point in points]
 
 
-@pytest.mark.parametrize("name", EXAMPLES["/v1/sweep"])
+@pytest.mark.parametrize("name", study_bodies("/v1/sweep"))
 def test_examples_of_sweeps(post: Post, name: str) -> None:
-    *_, end = lines(post("/v1/sweep", EXAMPLES["/v1/sweep"][name]["value"]))
+    *_, end = lines(post("/v1/sweep", study_bodies("/v1/sweep")[name]["value"]))
     assert_solved(end, end["points"])
 
 
-@pytest.mark.parametrize("name", EXAMPLES["/v1/sensitivity"])
+@pytest.mark.parametrize("name", study_bodies("/v1/sensitivity"))
 def test_examples_of_sensitivities(post: Post, name: str) -> None:
-    *found, end = lines(post("/v1/sensitivity", EXAMPLES["/v1/sensitivity"][name]["value"]))
+    *found, end = lines(post("/v1/sensitivity", study_bodies("/v1/sensitivity")[name]["value"]))
     assert end["type"] == "end"
     expected = {(output["path"], each["path"]) for output in end["outputs"] for each in end["inputs"]}
     assert {(line["output"], line["path"]) for line in found if line["type"] == "sensitivity"} == expected
@@ -174,9 +173,9 @@ def test_examples_of_sensitivities(post: Post, name: str) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", EXAMPLES["/v1/spectrum"])
+@pytest.mark.parametrize("name", study_bodies("/v1/spectrum"))
 def test_examples_of_spectra(post: Post, name: str) -> None:
-    header, *_, end = lines(post("/v1/spectrum", EXAMPLES["/v1/spectrum"][name]["value"]))
+    header, *_, end = lines(post("/v1/spectrum", study_bodies("/v1/spectrum")[name]["value"]))
     assert header["type"] == "spectrum"
     assert_solved(end, header["total"])
     assert len(end["limits"]) == 1
@@ -201,19 +200,19 @@ def test_corners_on_the_workers(post: Post) -> None:
 def test_a_design_on_the_workers(post: Post) -> None:
     worked = {"request.friction_coefficient": 0.04, "request.temperatures.bulk_c": 95.0}
     worked["request.pinion_shaft.sections.3.outer_diameter_mm"] = 238.8
-    body = changed(EXAMPLES[DESIGN]["robust"]["value"], {"evaluations": 1, **worked})
+    body = changed(study_bodies(DESIGN)["robust"]["value"], {"evaluations": 1, **worked})
     header, trial, end = lines(post(DESIGN, body))
     assert header["corners"] == 12
     assert trial["objective"] == end["objective_best"] == end["objective_start"]
     assert 1.6 < trial["objective"] < 1.63, "the nominal correction of the worked example: 1.609 with full sliding"
 
 
-@pytest.mark.parametrize("example", EXAMPLES[CORNERS].values(), ids=list(EXAMPLES[CORNERS]))
+@pytest.mark.parametrize("example", study_bodies(CORNERS).values(), ids=list(study_bodies(CORNERS)))
 def test_examples_of_corners_are_accepted(example: dict[str, Any]) -> None:
     assert Corners(example["value"], 2500, 30.0).total in {12, 128}
 
 
-@pytest.mark.parametrize("example", EXAMPLES[DESIGN].values(), ids=list(EXAMPLES[DESIGN]))
+@pytest.mark.parametrize("example", study_bodies(DESIGN).values(), ids=list(study_bodies(DESIGN)))
 def test_examples_of_designs_are_accepted(example: dict[str, Any]) -> None:
     assert Design(example["value"], 2500, 30.0).total == 720
 
@@ -226,7 +225,7 @@ def test_documents(client: httpx.Client, path: str, schema: str) -> None:
     operation = document["paths"][path]["post"]
     content = operation["requestBody"]["content"]["application/json"]
     assert content["schema"] == {"$ref": f"#/components/schemas/{schema}"}
-    assert set(content["examples"]) == set(EXAMPLES[path])
+    assert set(content["examples"]) == set(study_bodies(path))
     properties = document["components"]["schemas"][schema]["properties"]
     assert all(each["title"] and each["description"] for each in properties.values())
     if path == "/v1/sweep":

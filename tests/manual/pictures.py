@@ -11,5 +11,5 @@ def figures_of(chapter: Chapter) -> list[tuple[str, str]]:
 
 
 def studies_of(chapter: Chapter) -> list[str]:
-    """Return the names of all pictures of studies. The file `studies.json` describes the study of each name."""
+    """Return the names of all pictures of studies. `studies.json` of a model describes them."""
     return re.findall(r"\]\(studies/([\w-]+)\.png\)", chapter.text)

@@ -16,10 +16,9 @@ from typing import Any
 import httpx
 import pytest
 
-from app.examples import examples
+from app.examples import examples, study_bodies
 from app.studies.kinds.spectrum import Spectrum
 from app.studies.kinds.sweep import Sweep
-from app.studies.requests import EXAMPLES
 from solvers.digest import digest_of
 from tests.support.dask_cluster import DaskProcesses, running_cluster
 from tests.support.server import ROOT, Server, free_port, running_server
@@ -66,7 +65,7 @@ SWEEPS: dict[str, dict[str, Any]] = {
 }
 
 
-SPECTRUM = {**EXAMPLES["/v1/spectrum"]["coupling"]["value"], "points": True}
+SPECTRUM = {**study_bodies("/v1/spectrum")["coupling"]["value"], "points": True}
 
 
 def lines(text: str) -> list[dict[str, Any]]:

@@ -10,12 +10,11 @@ from scipy.stats import norm
 
 from app.calculations import BY_PATH
 from app.evaluate import evaluate
-from app.examples import examples
+from app.examples import examples, study_bodies
 from app.studies.fields import value_at
 from app.studies.kinds.spectrum import Spectrum
 from app.studies.kinds.sweep import Sweep
 from app.studies.points import Point
-from app.studies.requests import EXAMPLES
 from solvers.arrays import FloatArray
 from tests.support.pools import InlinePool
 from tests.support.requests import changed
@@ -270,7 +269,7 @@ def few_draws(example: str) -> dict[str, Any]:
     Two replicates still give a standard error.
     """
     draws = {"tolerances.count": 2, "tolerances.replicates": 2}
-    return changed(EXAMPLES["/v1/spectrum"][example]["value"], draws)
+    return changed(study_bodies("/v1/spectrum")[example]["value"], draws)
 
 
 def test_the_scuffing_temperature_is_the_limit_where_none_is_given() -> None:

@@ -13,10 +13,10 @@ from pydantic import BaseModel
 from starlette.types import Receive, Scope, Send
 
 from app.calculations import BY_PATH
+from app.examples import study_bodies
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
 from app.studies.kinds import KINDS
-from app.studies.requests import EXAMPLES
 from app.studies.runner import PROGRESS_S, Clock, Lines, Study, encoded, guarded
 
 Format = Literal["ndjson", "csv"]
@@ -107,7 +107,7 @@ def _add(kind: type[Study]) -> None:
         return await started(http, kind, body, wanted_format(http, written_as))
 
     answer = lines_or_table if "csv" in kind.formats else lines
-    answer.__annotations__["body"] = Annotated[kind.model, Body(openapi_examples=EXAMPLES.get(kind.path))]
+    answer.__annotations__["body"] = Annotated[kind.model, Body(openapi_examples=study_bodies(kind.path) or None)]
     content = {media: {"schema": {"type": "string"}} for name, media in MEDIA_TYPES.items() if name in kind.formats}
     router.add_api_route(
         kind.path,

@@ -43,5 +43,6 @@ CARD = Card(
             figures=figures.RECOMMENDATION_FIGURES,
         ),
     ),
+    subject="coupling",
     start_figure="tooth-loads",
 )

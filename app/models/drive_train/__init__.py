@@ -49,5 +49,6 @@ CARD = Card(
             figures=warm_up_figures.FIGURES,
         ),
     ),
+    subject="pair",
     start_figure="face-load",
 )

@@ -6,7 +6,7 @@ from typing import Any
 from app.models.card import FileResult, FromFile, ScuffingPaths, Words
 from app.models.coupling.words import ProportionsInForce
 from app.models.load_distribution.words import MESH_DERIVED
-from app.models.scuffing.words import LOAD_RESULTS, MICROPITTING_RESULTS, how_well_known
+from app.models.scuffing.words import LOAD_RESULTS, MICROPITTING_RESULTS, OPTIONAL_CHAPTERS, how_well_known
 from app.schema.answers import Response, component, group, named
 from app.schema.quantities import View
 from solvers.drive_train import derived, results, warm_up
@@ -77,6 +77,7 @@ def remarks(response: Any) -> dict[str, str]:
 
 WORDS = Words(
     remarks=remarks,
+    chapters=OPTIONAL_CHAPTERS,
     losses=("losses.coupling_w", "losses.pumping_w", "losses.mesh_w", "losses.bearings_w"),
     scuffing=ScuffingPaths("flash.contact_max_c", "derived.temperatures.scuffing_c"),
     of_the_film=frozenset({"safety.minimum"}),

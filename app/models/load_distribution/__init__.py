@@ -21,5 +21,6 @@ CARD = Card(
             words=words.WORDS,
         ),
     ),
+    subject="pair",
     start_figure="flank-load",
 )

@@ -49,5 +49,6 @@ CARD = Card(
             words=words.CHOKING_WORDS,
         ),
     ),
+    subject="pair",
     start_figure="mach-map",
 )

@@ -50,4 +50,5 @@ CARD = Card(
             words=words.WORDS,
         ),
     ),
+    subject="pair",
 )

@@ -12,6 +12,7 @@ from solvers.lubricants import OilInUse
 from solvers.scuffing import safety_results as results
 from solvers.scuffing.micropitting import results as film_results
 
+OPTIONAL_CHAPTERS = {"micropitting": "micropitting", "heat": "heat-balance"}
 FILM_SAFETY = View(limit=1.0, bound="lower")
 
 named(
@@ -110,6 +111,7 @@ enters the load stage on the page of the calculation.
 
 WORDS = Words(
     remarks=remarks,
+    chapters=OPTIONAL_CHAPTERS,
     losses=("friction_loss.power_w",),
     scuffing=ScuffingPaths("contact_temperature.blok_max_c", "safety.scuffing_c"),
     of_the_film=frozenset({"film.min_at_psi", "film.thickness_ratio", "unsolved_points"}),

@@ -8,8 +8,9 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Any
 
-from app.calculations import Calculation
+from app.calculations import CALCULATIONS, Calculation
 from app.errors import Unprocessable
+from app.examples import study_bodies
 from app.figures.data import Figure, NoFigure
 from app.figures.spectrum import Limited, LimitedCase, chance_text, chances, deciding, losses, overlap, sentence
 from app.figures.units import axis_of
@@ -26,22 +27,14 @@ from app.pages.typed import as_typed
 from app.pages.typesetting import cited, shown
 from app.schema.fields import leaf_at
 from app.studies.fields import scalar_at, value_at
-from app.studies.kinds.spectrum import RELATIVE_DEVIATION, SCUFFING, Spectrum
+from app.studies.kinds.spectrum import RELATIVE_DEVIATION, Spectrum
 from app.studies.points import SOLVED
-from app.studies.requests import DRIVE_TRAIN, EXAMPLES
 from app.studies.runner import Line
 
 REPLICATES = 8  # number of independent samples on the page; the scatter of their means gives the error of a mean
 MACHINES = (("", "256"), ("64", "64"), ("1024", "1024"), ("4096", "4096"))
 LAWS = (("", "normal"), ("uniform", "uniform"), ("triangular", "triangular"), ("lognormal", "lognormal"))
 SIDES = (("", "by the output"), ("above", "above is bad"), ("below", "below is bad"))
-LOSSES = {
-    "/v1/coupling": ("losses.friction_power_w",),
-    "/v1/pumping": ("total.pumping_power_w",),
-    "/v1/scuffing/load-distribution": ("friction_loss.power_w",),
-    "/v1/scuffing": ("friction_loss.power_w",),
-    DRIVE_TRAIN: ("losses.coupling_w", "losses.pumping_w", "losses.mesh_w", "losses.bearings_w"),
-}
 MOST_BARS = 40  # number of bars that fit side by side on a page
 
 
@@ -141,7 +134,7 @@ class SpectrumPage(StudyPage):
         "with the limit."
     )
     figures = ("limit", "probability", "decides", "losses")
-    outputs = tuple(paths.contact for paths in SCUFFING.values())
+    outputs = tuple(each.words.scuffing.contact for each in CALCULATIONS if each.words.scuffing)
     needs = ("cases", *TOLERANCES)
     choose = (
         "The table of cases lists what changes in each part of the operating time. The tolerances state how the "
@@ -168,7 +161,7 @@ class SpectrumPage(StudyPage):
             "request": self.asked.body,
             "cases": cases_of(calculation, given["cases"]),
             "tolerances": tolerances if inputs else None,
-            "outputs": list(dict.fromkeys([output, *LOSSES.get(calculation.path, ())])),
+            "outputs": list(dict.fromkeys([output, *calculation.words.losses])),
             "limits": self._limits(given.get("limit", {})),
             "hours_per_year": given.get("hours_per_year"),
         }
@@ -217,7 +210,7 @@ class SpectrumPage(StudyPage):
     @property
     def _assumes_limit(self) -> bool:
         """True if the scuffing temperature is the default limit of the output that the page shows."""
-        scuffing = SCUFFING.get(self.calculation.path)
+        scuffing = self.calculation.words.scuffing
         return scuffing is not None and (self.views.get("show") or self.usual_output.path) == scuffing.contact
 
     def _limits(self, given: dict[str, Any]) -> list[dict[str, Any]] | None:
@@ -286,7 +279,7 @@ class SpectrumPage(StudyPage):
     def starters(self) -> Sequence[Starter]:
         """Return links to the ready studies of /v1/spectrum. If the query has a case, return no links."""
         starters = []
-        for example in EXAMPLES["/v1/spectrum"].values():
+        for example in study_bodies("/v1/spectrum").values():
             body = example["value"]
             if body["endpoint"] == self.calculation.path and not self.asked.pairs:
                 address = address_of(self.calculation, pairs_of(body["request"]), body)
@@ -354,7 +347,7 @@ class SpectrumPage(StudyPage):
 
         If no loss has a mean value, the dictionary is empty.
         """
-        wanted, outputs = LOSSES.get(self.calculation.path, ()), end["outputs"]
+        wanted, outputs = self.calculation.words.losses, end["outputs"]
         titles = {leaf.path: leaf.title for leaf in self.study.outputs}
         drawn_losses = {path: titles[path] for path in wanted if outputs[path]["mean"] is not None}
         if not drawn_losses:

@@ -2,12 +2,13 @@
 
 from collections.abc import Sequence
 from time import perf_counter
-from typing import Annotated, NamedTuple, Self
+from typing import Annotated, Self
 
 import numpy as np
 from pydantic import Field, model_validator
 from pydantic_core import PydanticCustomError
 
+from app.calculations import BY_PATH
 from app.errors import Unprocessable
 from app.schema.fields import Leaf
 from app.schema.quantities import Input
@@ -17,7 +18,6 @@ from app.studies.point_sets import anchors, cut, drawn, fields_set, scattering, 
 from app.studies.points import SOLVED, BaseRequest, Question, solve_point
 from app.studies.requests import (
     COUNT,
-    DRIVE_TRAIN,
     LARGEST,
     METHOD,
     FieldPath,
@@ -126,19 +126,6 @@ class SpectrumRequest(StudyRequest):
     points: Annotated[bool, Input("points", text="whether every solved point is a line of the answer")] = False
 
 
-class Scuffing(NamedTuple):
-    """Dotted paths of the contact temperature and the scuffing temperature in the answer of an endpoint."""
-
-    contact: str
-    limit: str
-
-
-SCUFFING = {
-    "/v1/scuffing": Scuffing("contact_temperature.blok_max_c", "safety.scuffing_c"),
-    DRIVE_TRAIN: Scuffing("flash.contact_max_c", "derived.temperatures.scuffing_c"),
-}
-
-
 class Spectrum(Study):
     """The probability that a machine exceeds a limit. The machines are drawn at random from the tolerances.
 
@@ -183,8 +170,9 @@ class Spectrum(Study):
         for place, leaf in outputs.items():
             if leaf.kind not in NUMBERS:
                 raise Unprocessable("unknown_output", f"{leaf.path} is not a number; choose another output", place)
-        if body.limits is None and body.endpoint in SCUFFING:
-            outputs["limits"] = base.output(SCUFFING[body.endpoint].contact, "limits")
+        scuffing = base.calculation.words.scuffing
+        if body.limits is None and scuffing:
+            outputs["limits"] = base.output(scuffing.contact, "limits")
         return tuple({leaf.path: leaf for leaf in outputs.values()}.values())
 
     def _planned(self, base: BaseRequest, most: int) -> int:
@@ -196,8 +184,9 @@ class Spectrum(Study):
             if leaf.path in set_by_cases:
                 message = f"{leaf.path} has both a value in a case and a tolerance; give only one of the two"
                 raise Unprocessable("duplicate_path", message, f"tolerances.inputs.{place}.path")
-        if body.limits is None and body.endpoint in SCUFFING:  # the default limit needs the scuffing temperature
-            columns = dict.fromkeys([*self.question.outputs, *SCUFFING[body.endpoint]])
+        scuffing = base.calculation.words.scuffing
+        if body.limits is None and scuffing:  # the default limit needs the scuffing temperature
+            columns = dict.fromkeys([*self.question.outputs, *scuffing])
             self.question = self.question._replace(outputs=list(columns))
         typical = {scatter.path: next(iter(anchors(scatter).values())) for scatter in inputs}
         for case in body.cases:
@@ -327,7 +316,7 @@ def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit
     If the request has no limits, the scuffing temperature is the default limit of the contact temperature. The only
     possible assumption is the standard deviation of this default limit.
     """
-    paths = SCUFFING.get(study.question.endpoint)
+    paths = BY_PATH[study.question.endpoint].words.scuffing
     if study.body.limits is not None or paths is None:
         return [_limit(given) for given in study.body.limits or ()], [], []
     temperatures = columns[paths.limit][~np.isnan(columns[paths.limit])]
