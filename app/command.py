@@ -77,7 +77,8 @@ def print_answer(endpoint: str, file: Path) -> None:
     """
     from app.calculations import BY_PATH  # noqa: PLC0415
     from app.errors import InvalidBody, Unprocessable, Unreadable, faults_of, sentence  # noqa: PLC0415
-    from app.evaluate import answer, content_of  # noqa: PLC0415
+    from app.evaluate import answer  # noqa: PLC0415
+    from app.schema.reading import content_of  # noqa: PLC0415
 
     gc.enable()
     if endpoint not in BY_PATH:

@@ -1,7 +1,6 @@
 """Functions that read and solve requests and write answers, for JSON, pages, figures and studies."""
 
 import json
-from collections import Counter
 from collections.abc import Iterator
 from hashlib import sha256
 from operator import attrgetter
@@ -9,7 +8,7 @@ from typing import Any
 
 from app import figures
 from app.calculations import BY_PATH
-from app.errors import Fault, InvalidBody, Unprocessable, Unreadable, printable
+from app.errors import Unprocessable
 from app.examples import examples
 from app.figures.data import ThemeName
 from app.figures.declaration import Declaration
@@ -23,43 +22,7 @@ from app.sources import SOURCES
 from solvers import notices
 from solvers.errors import InvalidInput, NoSolution
 
-MOST_MEMBERS = 1000  # largest number of fields per object; chosen: far more than a section has
-MOST_OBJECTS = 10_000  # largest number of objects per body; chosen: far more than the largest study needs
 _CANONICAL = json.JSONEncoder(sort_keys=True, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
-
-
-def content_of(body: bytes) -> Any:
-    """Return the content of a JSON body.
-
-    Raises InvalidBody if the body is empty, is not valid JSON, or has more objects or fields than any request needs.
-    Raises Unreadable if a name occurs twice in one object, or if the body cannot be decoded.
-    """
-    objects = 0
-
-    def members_of(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-        nonlocal objects
-        objects += 1
-        if objects > MOST_OBJECTS:
-            message = f"the body contains too many objects; at most {MOST_OBJECTS} are allowed"
-            raise InvalidBody([Fault("", "too_many_objects", message)])
-        if len(pairs) > MOST_MEMBERS:
-            message = f"an object of the body contains too many fields; at most {MOST_MEMBERS} are allowed"
-            raise InvalidBody([Fault("", "too_many_fields", message)])
-        content = dict(pairs)
-        if len(content) < len(pairs):
-            name, _ = Counter(name for name, _ in pairs).most_common(1)[0]
-            raise Unreadable(f"The name '{printable(name)}' occurs twice in one object of the body")
-        return content
-
-    if not body:
-        raise InvalidBody([Fault("", "missing", "the request needs a body")])
-    try:
-        return json.loads(body, object_pairs_hook=members_of)
-    except json.JSONDecodeError as error:
-        message = f"the body is not valid JSON: {error.msg} at position {error.pos}"
-        raise InvalidBody([Fault("", "json_invalid", message)]) from None
-    except (ValueError, RecursionError):  # not UTF-8, too many digits in a number, or too many brackets
-        raise Unreadable("The body cannot be read as JSON") from None
 
 
 def refuse_endless(calculation: Calculation, request: Request, deadline_s: float) -> None:

@@ -10,8 +10,7 @@ from pydantic import BaseModel
 from starlette.exceptions import HTTPException
 
 from app.errors import InvalidBody
-from app.evaluate import content_of
-from app.schema.reading import faults
+from app.schema.reading import content_of, faults
 
 
 class _ReadRequest(Request):

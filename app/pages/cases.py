@@ -13,7 +13,7 @@ from typing import Any, NamedTuple, get_args
 
 from app.calculations import BY_PATH, Calculation
 from app.errors import InvalidBody, Unprocessable, Unreadable
-from app.evaluate import content_of, response_to, solve
+from app.evaluate import response_to, solve
 from app.figures.data import ThemeName
 from app.pages.query import (
     LONGEST_QUERY,
@@ -28,7 +28,7 @@ from app.pages.query import (
 )
 from app.schema.fields import Branch, leaf_at, leaves, tree
 from app.schema.model import Request
-from app.schema.reading import validated
+from app.schema.reading import content_of, validated
 from app.sources import SHORT_SOURCES, changes_since
 from solvers.quantity import Detail
 

@@ -294,7 +294,7 @@ def _image(
     link to the case or to the study.
     """
     token = tokens[place]
-    folder, _, file = str(token.attrs["src"]).removesuffix(".png").partition("/")
+    folder, file = str(token.attrs["src"]).removesuffix(".png").split("/")[-2:]
     if folder == "studies":
         study = shown_studies()[file]
         title, page, lead = study.title, study.address(), "The study"
@@ -328,7 +328,10 @@ def _link_open(
     if _SOURCE.fullmatch(address):
         token.attrs["href"] = f"/manual/functions#{tokens[place + 1].content}"
     else:
-        token.attrs["href"] = re.sub(r"^([\w-]+)\.md(?=#|$)", r"/manual/\1", address)
+        name, dot, section = address.partition(".md")
+        if dot:
+            folder, chapter = f"/{name}".split("/")[-2:]
+            token.attrs["href"] = f"/manual/{folder.replace('_', '-') if chapter == 'chapter' else chapter}{section}"
     return renderer.renderToken(tokens, place, options, environment)
 
 

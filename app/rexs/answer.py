@@ -10,7 +10,7 @@ from pydantic import BaseModel
 
 from app.calculations import BY_PATH
 from app.errors import Unprocessable
-from app.evaluate import content_of, evaluate, refuse_endless
+from app.evaluate import evaluate, refuse_endless
 from app.pages.overview import unit_page
 from app.rexs import table
 from app.rexs.document import Document, File, read, with_attributes
@@ -18,7 +18,7 @@ from app.rexs.model import Attribute
 from app.rexs.reading import AssumedValue, Fault, MissingValue, Unused
 from app.rexs.unit import gear_unit
 from app.schema.quantities import Output
-from app.schema.reading import validated
+from app.schema.reading import content_of, validated
 
 PATH = "/v1/rexs"
 

@@ -1,10 +1,12 @@
-"""Validation of request bodies. If a body is not valid, messages explain the faults in plain words.
+"""Reading and validation of request bodies. If a body is not valid, messages explain the faults in plain words.
 
 Messages repeat only three kinds of input: numbers, texts that consist of a number, and field names of at most 40
 characters.
 """
 
+import json
 import re
+from collections import Counter
 from collections.abc import Iterable
 from difflib import get_close_matches
 from itertools import islice
@@ -12,13 +14,15 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from app.errors import Fault, InvalidBody, pointer
+from app.errors import Fault, InvalidBody, Unreadable, pointer, printable
 from app.schema.model import kinds
 from app.schema.quantities import meaning_of
 from solvers.quantity import UNITS, Quantity, advice, allowed
 
 M = TypeVar("M", bound=BaseModel)
 Models = tuple[type[BaseModel], ...]
+MOST_MEMBERS = 1000  # largest number of fields per object; chosen: far more than a section has
+MOST_OBJECTS = 10_000  # largest number of objects per body; chosen: far more than the largest study needs
 MOST_FAULTS = 100  # largest number of faults in one answer; chosen: nobody corrects more at once
 _NAME = re.compile(r"[A-Za-z0-9_]{1,40}")
 _NUMBER = re.compile(r"[+-]?\d{1,20}([.,]\d{1,20})?")
@@ -26,6 +30,40 @@ _RANGE = re.compile(r"\s*(\d{1,20}(?:[.,]\d{1,20})?)\s*(?:-|\u2013|\u2212|\.\.\.
 _RANGE_TYPES = {"greater_than", "greater_than_equal", "less_than", "less_than_equal"}
 _NUMBER_TYPES = {"float_type", "int_type"}
 _SECTION_TYPES = {"model_type", "model_attributes_type", "dict_type", "dataclass_type"}
+
+
+def content_of(body: bytes) -> Any:
+    """Return the content of a JSON body.
+
+    Raises InvalidBody if the body is empty, is not valid JSON, or has more objects or fields than any request needs.
+    Raises Unreadable if a name occurs twice in one object, or if the body cannot be decoded.
+    """
+    objects = 0
+
+    def members_of(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        nonlocal objects
+        objects += 1
+        if objects > MOST_OBJECTS:
+            message = f"the body contains too many objects; at most {MOST_OBJECTS} are allowed"
+            raise InvalidBody([Fault("", "too_many_objects", message)])
+        if len(pairs) > MOST_MEMBERS:
+            message = f"an object of the body contains too many fields; at most {MOST_MEMBERS} are allowed"
+            raise InvalidBody([Fault("", "too_many_fields", message)])
+        content = dict(pairs)
+        if len(content) < len(pairs):
+            name, _ = Counter(name for name, _ in pairs).most_common(1)[0]
+            raise Unreadable(f"The name '{printable(name)}' occurs twice in one object of the body")
+        return content
+
+    if not body:
+        raise InvalidBody([Fault("", "missing", "the request needs a body")])
+    try:
+        return json.loads(body, object_pairs_hook=members_of)
+    except json.JSONDecodeError as error:
+        message = f"the body is not valid JSON: {error.msg} at position {error.pos}"
+        raise InvalidBody([Fault("", "json_invalid", message)]) from None
+    except (ValueError, RecursionError):  # not UTF-8, too many digits in a number, or too many brackets
+        raise Unreadable("The body cannot be read as JSON") from None
 
 
 def validated(model: type[M], content: Any) -> M:

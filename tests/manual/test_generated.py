@@ -10,6 +10,7 @@ readers of the repository. The service draws its own pictures, and its equations
 import asyncio
 import re
 from collections.abc import Iterator
+from importlib.resources import as_file
 from pathlib import Path
 
 import pytest
@@ -18,7 +19,7 @@ from app.calculations import CALCULATIONS
 from app.evaluate import draw_figure
 from app.examples import examples
 from app.main import app
-from app.manual import NAMES, chapters
+from app.manual import NAMES, chapters, file_of
 from app.manual.equations import anchor
 from app.pages.cases import Asked
 from app.pages.manual import shown_studies
@@ -142,7 +143,8 @@ def test_equations_have_anchors_in_the_repository_too(name: str) -> None:
 
 def renew_chapters() -> None:
     for chapter in chapters().values():
-        (FOLDER / f"{chapter.name}.md").write_text(anchored(BLOCK.sub(_renewed, chapter.text)), "utf-8")
+        with as_file(file_of(chapter.name)) as path:
+            path.write_text(anchored(BLOCK.sub(_renewed, chapter.text)), "utf-8")
 
 
 def _renewed(block: re.Match[str]) -> str:
