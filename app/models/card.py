@@ -103,12 +103,22 @@ class Cost(NamedTuple):
     field: str
 
 
+class Pump(NamedTuple):
+    """The oil pump that a calculation sizes: the request's fields of flow and rise, and how the flow is sized.
+
+    `sized` returns the flow for the solver's inputs [m^3/s], None if it sizes none.
+    """
+
+    flow: str
+    rise: str
+    sized: Callable[[Any], float | None]
+
+
 @dataclass(frozen=True, slots=True)
 class Calculation:
     """One endpoint of a model, with its solver, its figures and its words.
 
-    `cost` estimates the time of a request; it is None if no permissible request takes too long. `sized_flow` returns
-    the oil flow that the calculation sizes for its inputs [m^3/s], None if it sizes none.
+    `cost` estimates the time of a request; it is None if no permissible request takes too long.
     """
 
     path: str
@@ -122,7 +132,7 @@ class Calculation:
     figures: tuple[Declaration, ...] = ()
     words: Words = Words()
     cost: Callable[[Any], Cost] | None = None
-    sized_flow: Callable[[Any], float | None] | None = None
+    pump: Pump | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from app.rexs.reading import Draft, Reading
 from solvers.gears.gear import involute
 from solvers.gears.pair import inverse_involute
 
-ISO_53_A = {"addendum": 1.0, "dedendum": 1.25, "gears.rack_tip_radius": 0.38}  # coefficients, in modules
+ISO_53_A = {"addendum": 1.0, "dedendum": 1.25, "rack_tip_radius": 0.38}  # coefficients, in modules
 SAME = 1e-6  # two stated numbers count as equal if their difference is smaller than this; chosen
 OFF_CENTRE = 1e-3  # tolerated error of positions, which are often rounded, as a share of the centre distance; chosen
 MOST_INVOLUTE = 1e8  # only absurd profile shifts give larger involute functions; the inverse function works up to 1e9
@@ -468,7 +468,9 @@ class StageDraft(Draft):
         path = "gears.rack_tip_radius"
         if not radii:
             self.assume(
-                path, ISO_53_A[path], "the file gives no tip radius of a tool; the value of ISO 53, profile A, is used"
+                path,
+                ISO_53_A["rack_tip_radius"],
+                "the file gives no tip radius of a tool; the value of ISO 53, profile A, is used",
             )
             return
         smallest, tool = min(radii, key=lambda radius_and_tool: radius_and_tool[0])

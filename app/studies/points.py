@@ -13,6 +13,7 @@ from typing import Any, Literal, NamedTuple
 from app.calculations import BY_PATH, Calculation
 from app.errors import PROBLEMS, InvalidBody, Unprocessable, faults_of
 from app.evaluate import evaluate, refuse_endless
+from app.models.card import Pump
 from app.schema.fields import Leaf, headlines
 from app.schema.model import Request
 from app.schema.reading import validated
@@ -28,8 +29,6 @@ SOLVED = ("ok", "ok_with_warnings")  # statuses of points that have an answer
 CHUNK_SECONDS = 0.25  # computing time of a chunk; after a chunk, the worker can do the work of another client
 COLD = "states.cold."
 
-GEAR_FLOW = "cooling.gear_flow_l_per_min"
-FLOW_FIELDS = {GEAR_FLOW, "cooling.flow_rise_k"}
 LEAST_FLOW, MOST_FLOW = (quantities(Cooling)["gear_flow"].bounds[end] for end in ("ge", "le"))
 
 logger = logging.getLogger("tribodrive")
@@ -178,12 +177,12 @@ def sized_flow(question: Question, first: Overrides) -> float | None:
     If the base request leaves out a field that the study varies, the request of the first point is taken.
     """
     calculation = BY_PATH[question.endpoint]
-    if calculation.sized_flow is None:
+    if calculation.pump is None:
         return None
     for overrides in ({}, first):
         try:
             request = validated(calculation.request, with_overrides(calculation, question.base, overrides))
-            flow = calculation.sized_flow(request.inputs())
+            flow = calculation.pump.sized(request.inputs())
         except InvalidBody:
             continue
         except (InvalidInput, NoSolution):  # each point says so itself
@@ -194,11 +193,10 @@ def sized_flow(question: Question, first: Overrides) -> float | None:
 
 def _with_flow(question: Question, calculation: Calculation, overrides: Overrides, request: Request) -> Request:
     """Return the request with the flow of the study's oil pump, unless the point varies the flow or has no balance."""
-    if question.gear_flow is None or not FLOW_FIELDS.isdisjoint(overrides) or not request.is_balanced:
+    pump, flow = calculation.pump, question.gear_flow
+    if pump is None or flow is None or not request.is_balanced or not {pump.flow, pump.rise}.isdisjoint(overrides):
         return request
-    return validated(
-        calculation.request, with_overrides(calculation, question.base, {**overrides, GEAR_FLOW: question.gear_flow})
-    )
+    return validated(calculation.request, with_overrides(calculation, question.base, {**overrides, pump.flow: flow}))
 
 
 class Chunk(NamedTuple):
@@ -222,9 +220,9 @@ def solve_chunk(question: Question, overrides: Sequence[Overrides]) -> Chunk:
     return Chunk(points, time.perf_counter() - started)
 
 
-def _assumed_flow(question: Question) -> dict[str, Any]:
+def _assumed_flow(question: Question, pump: Pump) -> dict[str, Any]:
     reason = "sized once, for the base request: one oil pump for all points"
-    return {"field": GEAR_FLOW, "value": question.gear_flow, "reason": reason}
+    return {"field": pump.flow, "value": question.gear_flow, "reason": reason}
 
 
 def solve_point(question: Question, overrides: Overrides) -> Point:
@@ -247,6 +245,7 @@ def solve_point(question: Question, overrides: Overrides) -> Point:
     except Exception:
         logger.exception("a point of a study failed")
         return question.failed("internal_error", "something went wrong in the service; the log has the cause")
+    flow = (_assumed_flow(question, calculation.pump),) if calculation.pump and with_flow is not request else ()
     ranks: dict[str, Rank] = {}  # a code counts once at a point, also if it holds for both gears
     for warning in answer.warnings:
         ranks.setdefault(warning.code, warning.rank)
@@ -254,6 +253,6 @@ def solve_point(question: Question, overrides: Overrides) -> Point:
         answer.status,
         [value_at(answer, path) for path in question.outputs],
         [*ranks],
-        assumptions=(*map(dict, answer.assumptions), *(() if with_flow is request else (_assumed_flow(question),))),
+        assumptions=(*map(dict, answer.assumptions), *flow),
         ranks=tuple(ranks.values()),
     )

@@ -147,7 +147,7 @@ def test_what_is_known_about_a_model_is_on_its_card() -> None:
     found = []
     for path in (ROOT / "app").rglob("*.py"):
         if "models" not in path.relative_to(ROOT).parts:
-            names = dict(constants(path))
+            names = constants(path)
             keys = (key for node in ast.walk(tree(path)) if isinstance(node, ast.Dict) for key in node.keys)
             values = ((key, names.get(key.id) if isinstance(key, ast.Name) else value_of(key)) for key in keys if key)
             found += [f"{name_of(path)}:{key.lineno} {value}" for key, value in values if value in paths]
@@ -158,11 +158,14 @@ def value_of(node: ast.expr) -> object:
     return node.value if isinstance(node, ast.Constant) else None
 
 
-def constants(path: Path) -> Iterator[tuple[str, object]]:
-    """Yield the names of texts that a module assigns or imports from a module of the project."""
+@cache
+def constants(path: Path) -> dict[str, object]:
+    """Return the texts that a module assigns, or imports from the module that assigns them, by their names."""
+    texts: dict[str, object] = {}
     for node in tree(path).body:
         if isinstance(node, ast.Assign) and isinstance(node.targets[0], ast.Name):
-            yield node.targets[0].id, value_of(node.value)
+            texts[node.targets[0].id] = value_of(node.value)
         elif isinstance(node, ast.ImportFrom) and node.module in NAMES - PACKAGES:
-            there = dict(constants(ROOT / f"{node.module.replace('.', '/')}.py"))
-            yield from ((alias.asname or alias.name, there.get(alias.name)) for alias in node.names)
+            there = constants(ROOT / f"{node.module.replace('.', '/')}.py")
+            texts |= {alias.asname or alias.name: there.get(alias.name) for alias in node.names}
+    return texts

@@ -2,10 +2,10 @@
 
 from typing import Any
 
-from app.models.card import Calculation, Card, Cost
+from app.models.card import Calculation, Card, Cost, Pump
 from app.models.drive_train import figures, request, warm_up_figures, words
 from app.models.kernels import DRIVE_TRAIN, THERMAL, Kernels
-from app.models.scuffing import thermal_path
+from app.models.scuffing import PUMP_FIELDS, thermal_path
 from solvers import drive_train
 
 
@@ -33,7 +33,7 @@ CARD = Card(
             kernels=Kernels(DRIVE_TRAIN, THERMAL),
             figures=figures.FIGURES,
             cost=_unit_states,
-            sized_flow=drive_train.sized_flow,
+            pump=Pump(*PUMP_FIELDS, drive_train.sized_flow),
             words=words.WORDS,
         ),
         Calculation(

@@ -2,11 +2,13 @@
 
 from typing import Any
 
-from app.models.card import Calculation, Card, Cost
+from app.models.card import Calculation, Card, Cost, Pump
 from app.models.kernels import SCUFFING, THERMAL, Kernels
 from app.models.scuffing import figures, request, words
 from solvers import scuffing
 from solvers.contact.ehl.continuation import Resolution, price
+
+PUMP_FIELDS = ("cooling.gear_flow_l_per_min", "cooling.flow_rise_k")
 
 
 def thermal_path(request: Any) -> Cost:
@@ -46,7 +48,7 @@ CARD = Card(
             kernels=Kernels(SCUFFING, THERMAL),
             figures=figures.FIGURES,
             cost=_checked_lines,
-            sized_flow=scuffing.sized_flow,
+            pump=Pump(*PUMP_FIELDS, scuffing.sized_flow),
             words=words.WORDS,
         ),
     ),
