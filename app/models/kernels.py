@@ -35,17 +35,18 @@ class Further(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Kernels:
-    """The kernels of an endpoint: a group, and for some requests a `further` one."""
+    """The kernels of an endpoint: a group, unless it needs none, and for some requests a `further` one."""
 
-    group: KernelGroup
+    group: KernelGroup | None = None
     further: Further | None = None
 
     def of(self, value_of: Callable[[str], Any] | None = None) -> frozenset[KernelGroup]:
         """Return the groups that a request needs. `value_of` returns the value of a field; None: any request."""
+        own: frozenset[KernelGroup] = self.group.all if self.group else frozenset()
         further = self.further
         if further is None or (value_of is not None and value_of(further.field) in further.spared):
-            return self.group.all
-        return self.group.all | further.group.all
+            return own
+        return own | further.group.all
 
 
 CLOSED_FORM = (("lubrication", "closed_form"),)
