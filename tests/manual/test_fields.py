@@ -3,6 +3,7 @@
 import random
 import re
 from collections.abc import Iterator
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -13,22 +14,25 @@ import pytest
 from app.calculations import CALCULATIONS
 from app.examples import examples
 from app.main import app
-from app.manual.fields import address, entries
+from app.manual.fields import Entry, address, entries
 from app.pages.query import link, pairs_of
 from app.pages.templating import page_path
 from app.schema.fields import ITEM, leaves
 from solvers.quantity import quantities
 
 ROOT = Path(__file__).parents[2]
-DOCUMENT = app.openapi()
-FIELDS = {(each.section, endpoint, each.path): each for each in entries() for endpoint in each.endpoints}
 NOT_TOLD = {"/v1/rexs/results"}  # a file
+
+
+@cache
+def rows() -> dict[tuple[str, str, str], Entry]:
+    return {(each.section, endpoint, each.path): each for each in entries() for endpoint in each.endpoints}
 
 
 def properties(schema: dict[str, Any], path: str = "") -> Iterator[str]:
     """Yield the paths of the fields in a schema that contain values. The paths of sections are left out."""
     if "$ref" in schema:
-        schema = DOCUMENT["components"]["schemas"][schema["$ref"].rpartition("/")[2]]
+        schema = app.openapi()["components"]["schemas"][schema["$ref"].rpartition("/")[2]]
     inner = [part for name in ("anyOf", "oneOf", "allOf") for part in schema.get(name, ())]
     if "properties" in schema:
         for name, part in schema["properties"].items():
@@ -46,7 +50,7 @@ def properties(schema: dict[str, Any], path: str = "") -> Iterator[str]:
 def documented() -> Iterator[tuple[str, str, str]]:
     """Yield the section, address and path of every field in the OpenAPI document, without figures and files."""
     calculations = {each.path for each in CALCULATIONS}
-    for endpoint, operations in DOCUMENT["paths"].items():
+    for endpoint, operations in app.openapi()["paths"].items():
         for operation in operations.values():
             if "/figures/{name}" in endpoint or endpoint in NOT_TOLD:
                 continue
@@ -62,7 +66,7 @@ def documented() -> Iterator[tuple[str, str, str]]:
 
 
 def test_the_table_has_the_fields_of_the_openapi_document() -> None:
-    assert set(documented()) == set(FIELDS)
+    assert set(documented()) == set(rows())
 
 
 def test_ten_drawn_fields_lead_to_the_line_that_declares_them() -> None:
@@ -86,7 +90,7 @@ def test_every_field_has_a_row_to_which_a_link_leads(calculation: Any) -> None:
         for leaf in leaves(model):
             to_row = address(section, calculation.path, leaf.path)
             assert to_row.removeprefix("/manual/fields#") in anchors
-            assert FIELDS[section, calculation.path, leaf.path].cells[3] == (leaf.unit or "")
+            assert rows()[section, calculation.path, leaf.path].cells[3] == (leaf.unit or "")
 
 
 def test_pages_lead_to_the_table(client: httpx.Client) -> None:
@@ -96,6 +100,6 @@ def test_pages_lead_to_the_table(client: httpx.Client) -> None:
     example = next(iter(examples().values()))
     path = page_path(next(each for each in CALCULATIONS if each.path == example.endpoint))
     form = client.get(link(path, pairs_of(example.request))).text
-    rows = set(re.findall(r'href="/manual/fields#([^"]+)"', form))
-    assert len(rows) > 20
-    assert rows <= set(re.findall(r'<tr id="([^"]+)"', table))
+    led = set(re.findall(r'href="/manual/fields#([^"]+)"', form))
+    assert len(led) > 20
+    assert led <= set(re.findall(r'<tr id="([^"]+)"', table))
