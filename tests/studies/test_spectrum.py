@@ -261,7 +261,7 @@ def test_means_energy_and_extremes() -> None:
 
 
 def scuffing() -> dict[str, Any]:
-    return few_draws("scuffing")
+    return {**few_draws("scuffing"), "cases": [{"set": {"load.power_kw": 7000}}, {}]}
 
 
 def few_draws(example: str) -> dict[str, Any]:

@@ -4,6 +4,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import cache
 from math import atan, pi, radians, sin, tan
 
 import numpy as np
@@ -28,12 +29,15 @@ from tests.support.outcomes import codes, refused
 from tests.support.properties import first
 from tests.support.stored import stored
 
+pytestmark = pytest.mark.usefixtures("plain_verdict")
+
 WEAK = PumpingSetup(
     GearPairInputs(GearTeeth(47), GearTeeth(117), 7e-3, 0.03, helix_angle=radians(20), rack_tip_radius=0.25),
     model=PumpingModel(gap=Gap.TIP, spaces=Spaces.PINION),
 )
 
 
+@cache
 def weak(rpm: float, slices: int = 100, helix: float = 20.0) -> float:
     """Return the peak gauge pressure of a pair that pumps weakly, divided by the ambient pressure."""
     setup = changed(WEAK, {"model.slices": slices, "gears.helix_angle": radians(helix)})

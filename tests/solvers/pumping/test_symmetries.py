@@ -3,16 +3,19 @@
 import re
 
 import numpy as np
+import pytest
 from numpy.random import Generator
 
 from solvers.arrays import FloatArray
 from solvers.pumping import Flow, Gap, Groove, PumpingInputs, PumpingModel, Spaces
 from solvers.pumping.model import solve
-from solvers.pumping.results import PumpingResult
+from solvers.pumping.spaces import prepare
 from tests.support.answers import differences, leaves
 from tests.support.changes import changed
 from tests.support.properties import seeds
 from tests.support.pumping_cases import random_setup, random_speed
+
+pytestmark = pytest.mark.usefixtures("plain_verdict")
 
 RISES = {r"\.temperature_rise$": 1e-6}  # of less than a kelvin, the difference of temperatures of 300 K
 ENDS = {"front": "rear", "rear": "front"}
@@ -82,15 +85,13 @@ def test_the_spaces_of_a_driven_gear_are_those_of_a_driver_gone_through_from_beh
     inputs = draw_case(random)
     gears = inputs.setup.gears
     exchanged = changed(inputs, {"setup.gears.pinion": gears.wheel, "setup.gears.wheel": gears.pinion})
-    one, other = solve(inputs), solve(exchanged)
 
-    def strokes(result: PumpingResult) -> list[FloatArray]:
-        spaces = result.pinion_spaces, result.wheel_spaces
-        curves = [each.stroke.curves for each in spaces if each is not None]
-        return [np.stack((c.angle, c.area, c.clearance_left, c.clearance_right)) for c in curves]
+    def strokes(case: PumpingInputs) -> list[FloatArray]:
+        tables = [space.table for space in prepare(case.setup).spaces]
+        return [np.stack((each.angle, each.area, each.clearance_left, each.clearance_right)) for each in tables]
 
     turned = np.array([-1.0, 1.0, 1.0, 1.0])[:, None]
-    for here, there in zip(strokes(one), strokes(other)[::-1], strict=True):
+    for here, there in zip(strokes(inputs), strokes(exchanged)[::-1], strict=True):
         mirrored = turned * there[[0, 1, 3, 2], ::-1]
         scale = np.abs(here).max(axis=1, keepdims=True)
         assert np.abs(mirrored - here).max(where=scale > 0, initial=0.0) < 1e-9 * scale.max()
