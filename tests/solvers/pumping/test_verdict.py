@@ -63,9 +63,7 @@ def test_the_verdict_does_not_depend_on_the_slices_of_the_request() -> None:
 
 
 def test_no_advice_to_use_more_than_is_allowed() -> None:
-    texts = {
-        slices: " ".join(notice.message for notice in solved(slices).warnings) for slices in (100, MOST_SLICES)
-    }
+    texts = {slices: " ".join(notice.message for notice in solved(slices).warnings) for slices in (100, MOST_SLICES)}
     assert "use more slices" in texts[100]
     assert "use more slices" not in texts[MOST_SLICES]
 
