@@ -202,6 +202,7 @@ def text_of(html: str) -> str:
     return unescape(re.sub(r"<[^>]+>", " ", re.sub(r"</?(i|sub|span)\b[^>]*>", "", plain)))
 
 
+@pytest.mark.ci
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=page_path)
 def test_no_page_has_a_name_of_the_interface(calculation: Any) -> None:
     example = min(examples_of(calculation), key=lambda each: "gas_dynamics" in str(each.request))
