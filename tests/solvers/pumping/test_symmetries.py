@@ -3,19 +3,16 @@
 import re
 
 import numpy as np
-import pytest
 from numpy.random import Generator
 
 from solvers.arrays import FloatArray
 from solvers.pumping import Flow, Gap, Groove, PumpingInputs, PumpingModel, Spaces
-from solvers.pumping.model import solve
+from solvers.pumping.model import solve_on_slices
 from solvers.pumping.spaces import prepare
 from tests.support.answers import differences, leaves
 from tests.support.changes import changed
 from tests.support.properties import seeds
 from tests.support.pumping_cases import random_setup, random_speed
-
-pytestmark = pytest.mark.usefixtures("plain_verdict")
 
 RISES = {r"\.temperature_rise$": 1e-6}  # of less than a kelvin, the difference of temperatures of 300 K
 ENDS = {"front": "rear", "rear": "front"}
@@ -33,16 +30,18 @@ def draw_case(random: Generator) -> PumpingInputs:
 def test_a_pair_of_the_other_hand(random: Generator) -> None:
     inputs = draw_case(random)
     helix = inputs.setup.gears.helix_angle
-    assert not differences(solve(inputs), solve(changed(inputs, {"setup.gears.helix_angle": -helix})), tolerance=0.0)
+    assert not differences(
+        solve_on_slices(inputs), solve_on_slices(changed(inputs, {"setup.gears.helix_angle": -helix})), tolerance=0.0
+    )
 
 
 @seeds(4, 200)
 def test_each_gear_pumps_as_if_alone(random: Generator) -> None:
     inputs = draw_case(random)
-    both = solve(inputs)
+    both = solve_on_slices(inputs)
     for spaces in (Spaces.PINION, Spaces.WHEEL):
         name = f"{spaces}_spaces"
-        alone = solve(changed(inputs, {"setup.model.spaces": spaces}))
+        alone = solve_on_slices(changed(inputs, {"setup.model.spaces": spaces}))
         assert not differences(getattr(both, name), getattr(alone, name), tolerance=0.0)
 
 
@@ -55,7 +54,7 @@ def test_grooves_of_a_spur_pair_counted_from_its_other_end(random: Generator) ->
     if random.random() < 0.5:
         grooves += (Groove(width * random.uniform(0.6, 0.8), width * random.uniform(0.03, 0.1)),)
     turned = tuple(Groove(width - groove.position, groove.width) for groove in reversed(grooves))
-    one, other = (solve(changed(inputs, {"setup.grooves": each})) for each in (grooves, turned))
+    one, other = (solve_on_slices(changed(inputs, {"setup.grooves": each})) for each in (grooves, turned))
     before = leaves(one)
 
     def expected(name: str, values: FloatArray, _: str | None) -> FloatArray:

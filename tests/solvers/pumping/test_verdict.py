@@ -18,8 +18,10 @@ from solvers.pumping import (
     solve,
 )
 from solvers.pumping.inputs import MOST_SLICES
+from solvers.pumping.model import solve_on_slices
 from solvers.pumping.spaces import prepare
 from solvers.pumping.verdict import Band, Bands, bands, decide, on_grids
+from tests.support.answers import differences
 from tests.support.properties import seeds
 from tests.support.pumping_cases import random_gears
 
@@ -52,6 +54,12 @@ def test_the_inflow_chokes_long_before_the_outflow() -> None:
     fine = solved(MOST_SLICES).pinion_spaces
     assert fine is not None
     assert fine.inflow_choked is (fine.front_end.inflow_choked or fine.rear_end.inflow_choked) is True
+
+
+def test_only_the_verdict_needs_finer_grids() -> None:
+    plain = solve_on_slices(wide_pair(12000.0, 100))
+    assert plain.choking.slices == 100
+    assert not differences(solved(100), plain, tolerance=0.0, without=r"^choking\.")
 
 
 def test_the_verdict_does_not_depend_on_the_slices_of_the_request() -> None:
