@@ -258,7 +258,7 @@ def test_contradicting_names_are_refused(query: str) -> None:
         body_of(SCUFFING, pairs_of_query(query))
 
 
-@properties.examples(20, 200, st.lists(st.tuples(st.text(max_size=12), st.text(max_size=12)), max_size=8))
+@properties.examples(15, 200, st.lists(st.tuples(st.text(max_size=12), st.text(max_size=12)), max_size=8))
 def test_whatever_is_sent_gives_a_page_and_runs_nothing(sent: list[tuple[str, str]]) -> None:
     pairs = normalised(SCUFFING, [*sent, ("<i>x</i>", "<i>y</i>")])
     shown = views.page(Asked("/scuffing", pairs))

@@ -46,9 +46,3 @@ def test_links_between_the_projects_documents_lead_somewhere() -> None:
         prose = re.sub(r"```.*?```|`[^`\n]*`", "", text(name), flags=re.DOTALL)
         for target in re.findall(r"\]\(([^)#:]+)(?:#[\w-]+)?\)", prose):
             assert (ROOT / target).exists(), (name, target)
-
-
-def test_checks_before_a_commit_are_those_of_the_whole_run() -> None:
-    hooks = re.findall(r"entry: (\.venv/bin/[^,\n]+)", text(".pre-commit-config.yaml"))
-    assert hooks
-    assert [hook for hook in hooks if "pytest" not in hook and hook not in text(".ci/run")] == []

@@ -140,6 +140,7 @@ def test_links_of_the_pages_lead_somewhere(client: httpx.Client, pages: dict[str
                 assert target.startswith(("/", "https://")), link
 
 
+@pytest.mark.ci
 def test_pages_hold_the_equations_as_mathml_without_scripts(pages: dict[str, str]) -> None:
     for equation in equations().values():
         assert f'id="{anchor(equation.number)}"' in pages[f"/manual/{equation.chapter}"]

@@ -281,7 +281,9 @@ def test_the_scuffing_temperature_is_the_limit_where_none_is_given() -> None:
     assert limit["deviation"] == pytest.approx(0.15 * limit["mean"])
     (assumption,) = [each for each in end["assumptions"] if each["field"] == "limits"]
     assert "AGMA 925-A03" in assumption["reason"]
-    own = evaluate(SCUFFING, SCUFFING.request.model_validate({"detail": "summary", **STAGE.request}))
+    own = evaluate(
+        SCUFFING, SCUFFING.request.model_validate({**STAGE.request, "model": {"lubrication": "closed_form"}})
+    )
     assert limit["mean"] == pytest.approx(own.safety.scuffing_c)
     assert end["notes"] == []
 
