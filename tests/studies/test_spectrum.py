@@ -289,7 +289,7 @@ def test_the_scuffing_temperature_is_the_limit_where_none_is_given() -> None:
 
 
 def test_the_thermal_film_is_left_out_where_no_output_needs_it() -> None:
-    body = scuffing()
+    body = changed(scuffing(), {"request.model.path_points": 5})
     assert "lubrication" not in body["request"]["model"]
     light, whole = planned(body), planned({**body, "outputs": ["film.thickness_ratio"]})
     assert light.question.base["model"]["lubrication"] == "closed_form"
