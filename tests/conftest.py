@@ -1,73 +1,36 @@
-"""The processes of a test run share compiled kernels and solved requests, and all tests in a process share one service.
+"""Tests run in this process or, with `-n`, in several that share compiled kernels and solved requests.
 
-The service of `client` and `post` answers in the process of the test; its worker processes are the matter of
-tests/service. `served` is the client of a process of its own, for tests marked `ci`.
+The fixtures are in tests/support/fixtures.py: a process that only hands out tests does not import the service.
 """
 
-import asyncio
+import gc
 import os
-from collections.abc import Callable, Iterator
+from pathlib import Path
 from tempfile import TemporaryDirectory
 
-import httpx
 import pytest
-from hypothesis import HealthCheck, settings
 
-from app.settings import settings as limits
-from app.workers.start_up import StartUp
-from tests.support.in_process import InProcess
-from tests.support.pools import InlineWorkers
-from tests.support.server import running_server
-from tests.support.solved import FOLDER, remember_solutions
-
-# The first example of a property may compile a kernel; the same examples every time, searches live in benchmarks.
-settings.register_profile(
-    "kernels",
-    deadline=None,
-    derandomize=True,
-    suppress_health_check=[HealthCheck.too_slow, HealthCheck.data_too_large],  # drawing a gear unit takes long
-)
-settings.load_profile("kernels")
+from tests.support.solved import FOLDER
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Compile all kernels before the tests run in several processes, and give these a folder of solved requests."""
-    if not config.getoption("numprocesses", None):
-        remember_solutions()
-    else:
+    if config.getoption("numprocesses", None):
         folder = TemporaryDirectory(prefix="tribodrive-solved-")
         config.add_cleanup(folder.cleanup)
         os.environ[FOLDER] = folder.name
-        asyncio.run(StartUp().run(InlineWorkers(limits())))
+    else:
+        config.pluginmanager.import_plugin("tests.support.fixtures")
 
 
-@pytest.fixture
-def without_images(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Skip the layout and the drawing of figures, for tests that read only the texts of a report."""
-    monkeypatch.setattr("app.figures.drawing.image.draw_for_report", lambda figure: (figure, b""))
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    # their modules import a browser and a cluster
+    return True if collection_path.name == "service" and "not service" in config.getoption("markexpr") else None
 
 
-@pytest.fixture(scope="session")
-def server() -> Iterator[str]:
-    with running_server(log_level="error") as (_, address):
-        yield address
+def pytest_collection() -> None:
+    gc.disable()  # what is collected remains until the end
 
 
-@pytest.fixture(scope="session")
-def served(server: str) -> Iterator[httpx.Client]:
-    with httpx.Client(base_url=server, timeout=60, limits=httpx.Limits(keepalive_expiry=3)) as client:
-        yield client  # the server closes idle connections after 5 s
-
-
-@pytest.fixture(scope="session")
-def client() -> Iterator[httpx.Client]:
-    with httpx.Client(base_url="http://127.0.0.1:8000", transport=InProcess()) as client:
-        yield client
-
-
-@pytest.fixture(scope="session")
-def post(client: httpx.Client) -> Callable[[str, object], httpx.Response]:
-    def post(path: str, body: object) -> httpx.Response:
-        return client.post(path, json=body)
-
-    return post
+def pytest_collection_finish() -> None:
+    gc.freeze()
+    gc.enable()

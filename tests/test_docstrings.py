@@ -7,6 +7,7 @@ from enum import EnumType
 from importlib import import_module
 from pathlib import Path
 
+import pytest
 from numpydoc.docscrape import NumpyDocString
 from numpydoc.validate import validate
 
@@ -35,6 +36,7 @@ def exported() -> set[str]:
 PUBLIC = sorted(exported())
 
 
+@pytest.mark.ci
 def test_docstrings_have_the_form() -> None:
     for name in PUBLIC:
         is_enumeration = isinstance(implementing(name), EnumType)  # has the parameters of `str`

@@ -128,7 +128,7 @@ class Calculation:
     request: type[Request]
     solve: Callable[[Any], Any]
     response: type[Response]
-    kernels: Kernels = Kernels()
+    kernels: Kernels = field(default_factory=Kernels)
     figures: tuple[Declaration, ...] = ()
     words: Words = Words()
     cost: Callable[[Any], Cost] | None = None

@@ -12,7 +12,7 @@ from math import pi, radians
 
 from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.pumping import Closure, Flow, Gap, Groove, PumpingInputs, PumpingModel, PumpingResult, PumpingSetup, Spaces
-from solvers.pumping.model import solve
+from solvers.pumping.model import solve_on_slices
 from solvers.pumping.results import SpacesResult
 
 # The gears of Table 1, of Table 2 (case 1) and of Table 3 (case 2). The text of the paper states the speeds of cases 1
@@ -65,7 +65,7 @@ def run(
 ) -> PumpingResult:
     """Solve one operating point. `speed` is the speed of the pinion [rpm]. The result is cached."""
     setup = PumpingSetup(gears, backlash, grooves, model=replace(model, slices=slices))
-    return solve(PumpingInputs(setup, speed * pi / 30))
+    return solve_on_slices(PumpingInputs(setup, speed * pi / 30))
 
 
 def pinion(result: PumpingResult) -> SpacesResult:

@@ -67,6 +67,15 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
     -----
     Eq. P9.
     """
+    return _solve(inputs, refine=True)
+
+
+def solve_on_slices(inputs: PumpingInputs) -> PumpingResult:
+    """Solve without the finer grids of a doubtful verdict on choking, for callers that do not read the verdict."""
+    return _solve(inputs, refine=False)
+
+
+def _solve(inputs: PumpingInputs, *, refine: bool) -> PumpingResult:
     mesh = prepare(inputs.setup)
     speed, slices = inputs.pinion_speed, inputs.setup.model.slice_count
     check_speed(speed)
@@ -96,7 +105,7 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
         lead_correction=correction,
         pulsation=_pulsation(mesh, flows, speed, frequency),
         resolution=behind_jumps(resolved, mesh.gas, flows, [space.table.jump[0] for space in mesh.spaces]),
-        choking=decide(found, slices, finest, refined),
+        choking=decide(found, slices, finest, refined if refine else None),
         slices=sum(part.cells for part in face_stretches(inputs.setup, slices)),
         derived=derived(mesh),
         warnings=(

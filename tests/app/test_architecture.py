@@ -7,6 +7,10 @@ from graphlib import TopologicalSorter
 from itertools import takewhile
 from pathlib import Path
 
+import pytest
+
+pytestmark = pytest.mark.ci
+
 ROOT = Path(__file__).parents[2]
 ALLOWED = {"solvers", "numpy", "scipy", "numba", "threadpoolctl"}
 # what knows of files, or of the standard error

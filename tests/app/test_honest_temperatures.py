@@ -44,13 +44,13 @@ def velocity_per_rpm(request: dict[str, Any]) -> float:
     return float(np.pi * diameter / 6e4)
 
 
-@seeds(3, 50)
+@seeds(6, 50)
 def test_no_step_over_the_speed(random: np.random.Generator) -> None:
     """Safety, bulk temperature and film ratio move by less than 1 % between speeds 0.1 % apart, 5 to 150 m/s."""
     request = changed(pair(random), {"cooling": GONE})
     torque = request["load"]["power_kw"] * 9549 / request["load"]["pinion_speed_rpm"]
     per_rpm = velocity_per_rpm(request)
-    for velocity in [*np.exp(random.uniform(np.log(5.0), np.log(150.0), 8)), 20.0, 60.0]:
+    for velocity in [*np.exp(random.uniform(np.log(5.0), np.log(150.0), 4)), 20.0, 60.0]:
         before, after = (
             solved(request, {"load": {"pinion_torque_n_m": torque, "pinion_speed_rpm": velocity * near / per_rpm}})
             for near in (1.0 - STEPS / 2, 1.0 + STEPS / 2)

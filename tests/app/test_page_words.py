@@ -158,6 +158,20 @@ def test_choking_of_any_gear_is_on_the_card() -> None:
     assert conclusion(choked).startswith("The mesh is choked: the inflow at the ends")
 
 
+@pytest.mark.parametrize(("word", "level"), [("choked", "bad"), ("doubtful", "near"), ("not choked", "good")])
+@pytest.mark.parametrize(
+    ("flow", "path"),
+    [("outflow", "peak_axial_mach"), ("inflow", "peak_axial_mach"), ("clearances", "peak_pressure_ratio")],
+)
+def test_a_choked_flow_is_bad_and_a_doubtful_one_nearly(flow: str, path: str, word: str, level: str) -> None:
+    found = pumping("milian-table-1")
+    choking = found.choking.model_copy(update=dict.fromkeys(("outflow", "inflow", "clearances"), "not choked"))
+    choking = choking.model_copy(update={flow: word})
+    calm = found.pinion_spaces.model_copy(update={"peak_axial_mach": 0.5})
+    judged = verdicts(found.model_copy(update={"choking": choking, "pinion_spaces": calm}))
+    assert judged[f"pinion_spaces.{path}"].level == level
+
+
 POWER = Coordinate(Axis("power", unit="kW"), np.array([100.0, 200.0, 300.0, 400.0]))
 
 
@@ -195,6 +209,7 @@ def text_of(html: str) -> str:
     return unescape(re.sub(r"<[^>]+>", " ", re.sub(r"</?(i|sub|span)\b[^>]*>", "", plain)))
 
 
+@pytest.mark.ci
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=page_path)
 def test_no_page_has_a_name_of_the_interface(calculation: Any) -> None:
     example = min(examples_of(calculation), key=lambda each: "gas_dynamics" in str(each.request))

@@ -297,7 +297,7 @@ SLACK = (
         (LOAD_DISTRIBUTION, {"modifications.tip_relief_um": 0.03}, GROUND.format(0.03)),
         (TRAIN, {"modifications.helix_slope_um": 0.05}, GROUND.format(0.05)),
         (LOAD_DISTRIBUTION, {"gears.face_width_mm": 1.2}, NARROW.format(1.2)),
-        (TRAIN, {"gears.face_width_mm": 2}, NARROW.format(2)),
+        (TRAIN, {"model.slices": 10, "gears.face_width_mm": 2}, NARROW.format(2)),
         (
             LOAD_DISTRIBUTION,
             {"gears.face_width_mm": 250},

@@ -49,12 +49,6 @@ def test_links_between_the_projects_documents_lead_somewhere() -> None:
             assert (ROOT / target).exists(), (name, target)
 
 
-def test_checks_before_a_commit_are_those_of_the_whole_run() -> None:
-    hooks = re.findall(r"entry: (\.venv/bin/[^,\n]+)", text(".pre-commit-config.yaml"))
-    assert hooks
-    assert [hook for hook in hooks if "pytest" not in hook and hook not in text(".ci/run")] == []
-
-
 def test_the_package_has_no_picture_that_no_page_shows() -> None:
     """The manual's pictures are for readers of the repository; pages draw their own."""
     patterns = PYPROJECT["tool"]["setuptools"]["package-data"]["app"]

@@ -65,6 +65,13 @@ def test_large_bodies(served: httpx.Client, *, announced: bool) -> None:
     assert problem["detail"] == f"The request body is larger than {size - 1} bytes"
 
 
+@pytest.mark.parametrize(("beyond", "status"), [(0, 422), (1, 413)])
+def test_a_body_may_be_as_large_as_the_limit(client: httpx.Client, beyond: int, status: int) -> None:
+    content = b" " * (Settings().max_body_bytes + beyond)
+    answer = client.post("/v1/coupling", content=content, headers={"Content-Type": "application/json"})
+    assert answer.status_code == status
+
+
 @pytest.mark.ci
 def test_large_headers(served: httpx.Client) -> None:
     response = served.get("/healthz", headers={"X-Padding": "x" * 600_000})

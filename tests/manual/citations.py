@@ -3,6 +3,7 @@
 import ast
 import re
 from collections.abc import Iterator
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -55,6 +56,7 @@ def _inside(node: ast.Module | ast.ClassDef | ast.FunctionDef, name: str) -> Ite
             yield from _inside(each, f"{name}.{each.name}")
 
 
+@cache
 def cited() -> dict[str, set[str]]:
     """Return the equations that each module, class and function cites. The keys are the dotted names."""
     return {name: found for path, name, text in docstrings() if (found := numbers(text, paper_of(path)))}

@@ -3,6 +3,7 @@
 import random
 import re
 from collections.abc import Iterator
+from functools import cache
 from importlib import import_module
 from pathlib import Path
 from typing import Any
@@ -14,23 +15,29 @@ from app.calculations import CALCULATIONS
 from app.examples import examples
 from app.http.routes.manual import OTHER_ANSWERS
 from app.main import app
-from app.manual.fields import address, table
+from app.manual.fields import FieldRow, address, table
 from app.pages.query import link, pairs_of
 from app.pages.templating import page_path
 from app.schema.fields import ITEM, leaves
 from solvers.quantity import quantities
 
 ROOT = Path(__file__).parents[2]
-DOCUMENT = app.openapi()
-ENTRIES = table(OTHER_ANSWERS)
-FIELDS = {(each.section, endpoint, each.path): each for each in ENTRIES for endpoint in each.endpoints}
 NOT_TOLD = {"/v1/rexs/results"}  # a file
+
+
+def entries() -> tuple[FieldRow, ...]:
+    return table(OTHER_ANSWERS)
+
+
+@cache
+def rows() -> dict[tuple[str, str, str], FieldRow]:
+    return {(each.section, endpoint, each.path): each for each in entries() for endpoint in each.endpoints}
 
 
 def properties(schema: dict[str, Any], path: str = "") -> Iterator[str]:
     """Yield the paths of the fields in a schema that contain values. The paths of sections are left out."""
     if "$ref" in schema:
-        schema = DOCUMENT["components"]["schemas"][schema["$ref"].rpartition("/")[2]]
+        schema = app.openapi()["components"]["schemas"][schema["$ref"].rpartition("/")[2]]
     inner = [part for name in ("anyOf", "oneOf", "allOf") for part in schema.get(name, ())]
     if "properties" in schema:
         for name, part in schema["properties"].items():
@@ -48,7 +55,7 @@ def properties(schema: dict[str, Any], path: str = "") -> Iterator[str]:
 def documented() -> Iterator[tuple[str, str, str]]:
     """Yield the section, address and path of every field in the OpenAPI document, without figures and files."""
     calculations = {each.path for each in CALCULATIONS}
-    for endpoint, operations in DOCUMENT["paths"].items():
+    for endpoint, operations in app.openapi()["paths"].items():
         for operation in operations.values():
             if "/figures/{name}" in endpoint or endpoint in NOT_TOLD:
                 continue
@@ -64,7 +71,7 @@ def documented() -> Iterator[tuple[str, str, str]]:
 
 
 def test_the_table_has_the_fields_of_the_openapi_document() -> None:
-    assert set(documented()) == set(FIELDS)
+    assert set(documented()) == set(rows())
 
 
 def test_ten_drawn_fields_lead_to_the_line_that_declares_them() -> None:
@@ -72,7 +79,7 @@ def test_ten_drawn_fields_lead_to_the_line_that_declares_them() -> None:
 
     The source of this module declares this attribute in this class.
     """
-    declared = [each for each in ENTRIES if each.section in {"Requests", "Answers"} and each.cells[9]]
+    declared = [each for each in entries() if each.section in {"Requests", "Answers"} and each.cells[9]]
     for entry in random.Random(42).sample(declared, 10):
         module, kind, name = entry.cells[9].strip("`").rsplit(".", 2)
         assert name in quantities(getattr(import_module(module), kind))
@@ -82,23 +89,23 @@ def test_ten_drawn_fields_lead_to_the_line_that_declares_them() -> None:
 
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 def test_every_field_has_a_row_to_which_a_link_leads(calculation: Any) -> None:
-    anchors = {each.anchor for each in ENTRIES}
-    assert len(anchors) == len(ENTRIES)
+    anchors = {each.anchor for each in entries()}
+    assert len(anchors) == len(entries())
     for section, model in (("Requests", calculation.request), ("Answers", calculation.response)):
         for leaf in leaves(model):
-            assert FIELDS[section, calculation.path, leaf.path].cells[3] == (leaf.unit or "")
+            assert rows()[section, calculation.path, leaf.path].cells[3] == (leaf.unit or "")
     for leaf in leaves(calculation.request):
         to_row = address(calculation.path, leaf.path)
-        assert to_row.removeprefix("/manual/fields#") == FIELDS["Requests", calculation.path, leaf.path].anchor
+        assert to_row.removeprefix("/manual/fields#") == rows()["Requests", calculation.path, leaf.path].anchor
 
 
 def test_pages_lead_to_the_table(client: httpx.Client) -> None:
-    table = client.get("/manual/fields").text
-    assert 'type="search"' in table
+    shown = client.get("/manual/fields").text
+    assert 'type="search"' in shown
     assert 'href="/manual/fields"' in client.get("/docs").text
     example = next(iter(examples().values()))
     path = page_path(next(each for each in CALCULATIONS if each.path == example.endpoint))
     form = client.get(link(path, pairs_of(example.request))).text
-    rows = set(re.findall(r'href="/manual/fields#([^"]+)"', form))
-    assert len(rows) > 20
-    assert rows <= set(re.findall(r'<tr id="([^"]+)"', table))
+    linked = set(re.findall(r'href="/manual/fields#([^"]+)"', form))
+    assert len(linked) > 20
+    assert linked <= set(re.findall(r'<tr id="([^"]+)"', shown))

@@ -23,9 +23,10 @@ COSINE = cos(radians(20.0))
 SOFT, STIFF = 1e5, 1e14  # tooth stiffness [N/m]: equal loads, load on the worst teeth alone
 
 
-def test_axial_force_bound_of_60_9_kn() -> None:
-    assert bloch(axial_velocity=1.0).axial_thrust.force == pytest.approx(60.9e3, rel=1e-3)
-    assert 0.0 < bloch(axial_velocity=5e-3).axial_thrust.force < 60.9e3
+def test_axial_force_reaches_its_bound() -> None:
+    fast, slow = (bloch(axial_velocity=velocity).axial_thrust for velocity in (1.0, 5e-3))
+    assert fast.force == pytest.approx(fast.coaxial_limit, rel=1e-3)
+    assert 0.0 < slow.force < slow.coaxial_limit
 
 
 @pytest.mark.parametrize(("stiffness", "moment"), [(SOFT, 4165.0), (STIFF, 6542.0)])
@@ -37,7 +38,6 @@ def test_friction_moment_reaches_both_bounds(stiffness: float, moment: float) ->
 
 def test_contact_shift_moment_stays_below_its_bound_and_halves_with_equal_loads() -> None:
     bound = TORQUE * FACE / DIAMETER
-    assert bound == pytest.approx(3150.0, rel=1e-3)
     assert 0.0 < bloch().losses.contact_shift_moment < bound
     assert bloch(END_CONTACT, SOFT).losses.contact_shift_moment == pytest.approx(bound / 2, rel=1e-3)
 

@@ -1,15 +1,8 @@
 """Every published statement in the comparison table of the pages holds."""
 
-import re
-from collections.abc import Iterator
-from pathlib import Path
-
 import pytest
 
 from solvers.published import STATEMENTS, Statement
-
-ROOT = Path(__file__).parents[2]
-CITED = re.compile(r"(\w*)[ ,\"]*Eqs?\. (\d+)(?:( and |, |-)(\d+))?")
 
 NAMED = [
     pytest.param(statement, id=f"{model}-{number}")
@@ -38,21 +31,3 @@ def test_a_statement_that_is_not_reproduced_says_why() -> None:
     ]
     assert missed
     assert all(statement.remark for statement in missed)
-
-
-def equations(folder: str) -> Iterator[tuple[str, int]]:
-    """Yield paper and number of every equation that the Python files in a folder name.
-
-    The solvers need not name the paper, because the path of the file determines the paper.
-    """
-    for path in (ROOT / folder).rglob("*.py"):
-        paper = "Milian" if "pumping" in str(path.relative_to(ROOT)) else "Xue"
-        for word, first, joint, last in CITED.findall(path.read_text("utf-8")):
-            numbers = range(int(first), int(last) + 1) if joint == "-" else {int(first), int(last or first)}
-            yield from ((paper if folder == "solvers" else word, number) for number in numbers)
-
-
-def test_every_equation_that_the_solvers_cite_is_named_by_a_test() -> None:
-    cited, tested = set(equations("solvers")), set(equations("tests"))
-    assert len(cited) > 25
-    assert sorted(cited - tested) == []

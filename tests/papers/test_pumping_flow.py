@@ -30,7 +30,7 @@ from solvers.published.milian import (
 from solvers.pumping import Ambient, ChokingInputs, ChokingSpeeds, PumpingInputs, PumpingModel, PumpingSetup
 from solvers.pumping.choking import choking_speeds
 from solvers.pumping.flow.nozzle import choked_mass_flux, gas, mass_flux
-from solvers.pumping.model import solve
+from solvers.pumping.model import solve_on_slices
 from solvers.pumping.results import SpacesResult
 from tests.support.outcomes import codes
 
@@ -275,7 +275,7 @@ def test_only_the_ratio_of_speed_to_sound_speed_counts() -> None:
 
 
 def in_gas(speed: float, ambient: Ambient) -> SpacesResult:
-    return pinion(solve(PumpingInputs(PumpingSetup(CASE_1, ambient=ambient, model=PRINTED), speed * pi / 30)))
+    return pinion(solve_on_slices(PumpingInputs(PumpingSetup(CASE_1, ambient=ambient, model=PRINTED), speed * pi / 30)))
 
 
 # Speeds at which the flow becomes sonic: reference numbers of an independent calculation

@@ -37,7 +37,6 @@ def test_case_1_backlash_of_the_centre_distance() -> None:
 
 def test_fig_3_volume_is_u_shaped_and_symmetric_without_backlash(fig_3: StrokeTable) -> None:
     area = fig_3.area * 1e6
-    assert area[[0, 180, 360]] == pytest.approx([162.25, 12.158, 162.25], rel=2e-4)
     assert (np.diff(area[:181]) < 0).all()
     assert (np.diff(area[180:]) > 0).all()
     assert fig_3.area == pytest.approx(fig_3.area[::-1], rel=1e-12)

@@ -39,23 +39,21 @@ def line_load_at(result: LoadDistribution, profile: int, face: int) -> float:
 
 # Table 1
 
-# Transverse contact ratio, overlap ratio and total contact ratio: printed, reference
+# Transverse contact ratio, overlap ratio and total contact ratio of the reference
 TABLE_1 = {
-    1: ((1.59, 1.5914), (0.36, 0.3612), (1.95, 1.9526)),
-    2: ((1.59, 1.5914), (0.72, 0.7224), (2.31, 2.3138)),
-    3: ((1.49, 1.4915), (0.73, 0.7327), (2.22, 2.2243)),
-    4: ((1.49, 1.4915), (1.47, 1.4655), (2.96, 2.9570)),
+    1: (1.5914, 0.3612, 1.9526),
+    2: (1.5914, 0.7224, 2.3138),
+    3: (1.4915, 0.7327, 2.2243),
+    4: (1.4915, 1.4655, 2.9570),
 }
 
 
 @pytest.mark.parametrize("pair", PAIRS)
 def test_table_1_contact_ratios(pair: int) -> None:
-    """The contact ratios, among them the overlap ratio (Xue Eq. 3), agree with Table 1 and with the reference."""
+    """The contact ratios, among them the overlap ratio (Xue Eq. 3), agree with the reference."""
     geometry = xue.pair(pair).geometry
     ratios = (geometry.transverse_contact_ratio, geometry.overlap_ratio, geometry.total_contact_ratio)
-    for ratio, (printed, reference), rounded in zip(ratios, TABLE_1[pair], (0.005, 0.005, 0.006), strict=True):
-        assert ratio == pytest.approx(printed, abs=rounded)
-        assert ratio == pytest.approx(reference, abs=6e-5)
+    assert ratios == pytest.approx(TABLE_1[pair], abs=6e-5)
 
 
 def test_equation_2_needs_the_base_pitch_not_the_circular_pitch() -> None:
@@ -64,9 +62,8 @@ def test_equation_2_needs_the_base_pitch_not_the_circular_pitch() -> None:
     assert path.length / (np.pi * path.pair.transverse_module) == pytest.approx(1.493, abs=5e-4)
 
 
-def test_fig_6_length_ratio_is_one_half_for_a_total_contact_ratio_below_2() -> None:
+def test_fig_6_lengths_for_a_total_contact_ratio_below_2() -> None:
     lines = xue.pair(1).contact_lines
-    assert lines.length_ratio == pytest.approx(0.5, rel=1e-12)
     assert lines.min_length * 1e3 == pytest.approx(20.2608, abs=1e-4)
     assert lines.max_length * 1e3 == pytest.approx(40.5217, abs=1e-4)
 
@@ -105,7 +102,6 @@ def test_fig_5_the_spread_of_the_length_has_an_upper_limit_whatever_the_width(pa
 def test_fig_8_stiffness_is_largest_close_to_the_pitch_point(pair: int, gamma: float, stiffness: float) -> None:
     """The stiffness of a pair of teeth (Xue Eq. 7) has its maximum close to the pitch point."""
     result = xue.pair(pair).stiffness
-    assert abs(result.max_at_gamma) < 0.05
     assert result.max_at_gamma == pytest.approx(gamma, abs=2e-3)
     assert result.max * 1e-9 == pytest.approx(stiffness, rel=STIFF)
 
@@ -133,26 +129,22 @@ def test_fig_18_the_largest_line_load_falls_with_the_helix_angle_but_less_than_p
     # Printed 380 -> 270 N/mm; computed 368 (-3 %) -> 304 (+13 %).
     loads = [xue.pair(pair).load.max_line_load * 1e-3 for pair in (1, 3)]
     assert loads == pytest.approx([368.0, 304.0], rel=1e-3)
-    assert loads[0] == pytest.approx(380, rel=0.035)
     assert loads[1] == pytest.approx(1.126 * 270, rel=1e-2)
 
 
-@pytest.mark.parametrize(("pair", "printed", "linear", "hertzian"), [(1, 273.0, 215.0, 227.0), (2, 102.0, 85.8, 90.3)])
-def test_fig_20_the_line_load_at_the_start_of_mesh_is_lower_than_printed(
-    pair: int, printed: float, linear: float, hertzian: float
-) -> None:
+@pytest.mark.parametrize(("pair", "linear", "hertzian"), [(1, 215.0, 227.0), (2, 85.8, 90.3)])
+def test_fig_20_the_line_load_at_the_start_of_mesh(pair: int, linear: float, hertzian: float) -> None:
     load = line_load_at(xue.pair(pair), 0, 0)
     assert load == pytest.approx(linear, rel=2e-3)
-    assert 0.75 < load / printed < 0.86
     half_spaces = xue.pair(pair, Model(contact="hertzian", section="transverse"))
     assert line_load_at(half_spaces, 0, 0) == pytest.approx(hertzian, rel=5e-3)
 
 
-def test_the_calibrated_parabola_repeats_the_three_printed_line_loads_within_1_percent() -> None:
+def test_the_calibrated_parabola_repeats_the_printed_line_loads() -> None:
     first, second, third = (xue.pair(pair, CALIBRATED_MODEL) for pair in (1, 2, 3))
     loads = [line_load_at(first, 0, 0), line_load_at(second, 0, 0), third.load.max_line_load * 1e-3]
     assert loads == pytest.approx([272.8, 101.4, 269.4], rel=1e-3)
-    assert loads == pytest.approx([273, 102, 270], rel=0.01)
+    assert loads[2] == pytest.approx(270, rel=0.01)
     # The maximum of pair 1, printed 380 N/mm, is missed.
     assert first.load.max_line_load * 1e-3 == pytest.approx(360, rel=2e-3)
 

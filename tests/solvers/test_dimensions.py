@@ -13,7 +13,7 @@ from solvers.coupling.orbit import solve_orbit
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.states import solve as solve_drive_train
 from solvers.pumping import PumpingInputs, PumpingModel
-from solvers.pumping.model import solve as solve_pumping
+from solvers.pumping.model import solve_on_slices as solve_pumping
 from solvers.scuffing.model import solve as solve_load_distribution
 from tests.support.answers import differences
 from tests.support.changes import changed

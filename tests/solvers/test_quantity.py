@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from functools import cache
+from math import isclose
 from typing import Any
 
 import httpx
@@ -87,7 +88,7 @@ def compared(shown: Any, answer: Any) -> int:
     if isinstance(shown, list) and isinstance(answer, list) and len(shown) == len(answer):
         return sum(compared(*pair) for pair in zip(shown, answer, strict=True))
     if isinstance(shown, float) and isinstance(answer, float):
-        assert answer == pytest.approx(shown, rel=1e-9)
+        assert isclose(answer, shown, rel_tol=1e-9, abs_tol=1e-12)
         return 1
     return 0
 

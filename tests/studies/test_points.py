@@ -14,6 +14,7 @@ from app.studies import points
 from app.studies.fields import value_at
 from app.studies.points import Question, sized_flow, solve_chunk, solve_point, with_overrides
 from tests.support.properties import one_per_endpoint
+from tests.support.requests import changed
 
 VARIED = {
     "/v1/coupling": "operation.torque_n_m",
@@ -43,7 +44,8 @@ def test_every_endpoint_is_varied() -> None:
 
 @pytest.mark.parametrize("name", one_per_endpoint(examples()))
 def test_points_are_the_endpoints_own_answers(name: str) -> None:
-    endpoint, request = examples()[name].endpoint, examples()[name].request
+    endpoint = examples()[name].endpoint
+    request = changed(examples()[name].request, {"model.path_points": 5} if endpoint == "/v1/scuffing" else {})
     calculation, path, outputs = BY_PATH[endpoint], VARIED[endpoint], scalars(endpoint)
     base = value_at(calculation.request.model_validate(request).model_dump(), path)
     overrides: list[dict[str, Any]] = [

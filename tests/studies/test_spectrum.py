@@ -260,7 +260,7 @@ def test_means_energy_and_extremes() -> None:
 
 
 def scuffing() -> dict[str, Any]:
-    return few_draws("scuffing")
+    return {**few_draws("scuffing"), "cases": [{"set": {"load.power_kw": 7000}}, {}]}
 
 
 def few_draws(example: str) -> dict[str, Any]:
@@ -280,13 +280,15 @@ def test_the_scuffing_temperature_is_the_limit_where_none_is_given() -> None:
     assert limit["deviation"] == pytest.approx(0.15 * limit["mean"])
     (assumption,) = [each for each in end["assumptions"] if each["field"] == "limits"]
     assert "AGMA 925-A03" in assumption["reason"]
-    own = evaluate(SCUFFING, SCUFFING.request.model_validate({"detail": "summary", **STAGE.request}))
+    own = evaluate(
+        SCUFFING, SCUFFING.request.model_validate({**STAGE.request, "model": {"lubrication": "closed_form"}})
+    )
     assert limit["mean"] == pytest.approx(own.safety.scuffing_c)
     assert end["notes"] == []
 
 
 def test_the_thermal_film_is_left_out_where_no_output_needs_it() -> None:
-    body = scuffing()
+    body = changed(scuffing(), {"request.model.path_points": 5})
     assert "lubrication" not in body["request"]["model"]
     light, whole = planned(body), planned({**body, "outputs": ["film.thickness_ratio"]})
     assert light.question.base["model"]["lubrication"] == "closed_form"

@@ -6,7 +6,7 @@ from threading import Lock
 import httpx
 from cachetools import LRUCache
 
-from app.main import create_app
+from app.main import app
 from app.models.kernels import KERNEL_GROUPS
 from app.settings import MEBIBYTE, settings
 from app.studies.admission import StudyAdmission
@@ -18,7 +18,7 @@ class InProcess(httpx.BaseTransport):
     """A transport to a service of its own, for clients that are not asynchronous."""
 
     def __init__(self) -> None:
-        app, limits = create_app(), settings()
+        limits = settings()
         app.state.settings = limits
         app.state.pool = pool = InlineWorkers(limits)
         app.state.start_up = start_up = StartUp()

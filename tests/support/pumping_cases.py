@@ -15,7 +15,7 @@ from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
 from solvers.pumping import Ambient, Flow, Gap, Groove, PumpingInputs, PumpingModel, PumpingResult, PumpingSetup
-from solvers.pumping.model import solve
+from solvers.pumping.model import solve_on_slices
 from solvers.pumping.results import SpacesResult
 from solvers.pumping.spaces import prepare
 from tests.support.changes import changed, value_at
@@ -124,7 +124,7 @@ def check_books(draw: Generator) -> None:
     flow = Flow(draw.choice([Flow.GAS_DYNAMICS, Flow.POCKET_CHAIN]))
     setup = random_setup(draw, PumpingModel(flow=flow, slices=40 if flow is Flow.GAS_DYNAMICS else 8))
     case = PumpingInputs(setup, random_speed(draw, setup))
-    result = solve(case)
+    result = solve_on_slices(case)
     for spaces in spaces_of(result):
         flow_rate, balance = spaces.mass_flow, spaces.balance
         gross = flow_rate.front_out + flow_rate.rear_out + abs(flow_rate.radial) + abs(flow_rate.reset)
@@ -174,7 +174,7 @@ def check_resolution(draw: Generator) -> None:
 
 def check_resolution_of(case: PumpingInputs) -> None:
     """Check that twice the slices change a number by at most 1 % or its stated uncertainty, whichever is larger."""
-    here, there = solve(case), solve(changed(case, {"setup.model.slices": 200}))
+    here, there = solve_on_slices(case), solve_on_slices(changed(case, {"setup.model.slices": 200}))
     for coarse, fine in zip(spaces_of(here), spaces_of(there), strict=True):
         flow, after = coarse.mass_flow, numbers(fine)
         for name, value in numbers(coarse).items():
@@ -230,7 +230,7 @@ LITTLE = 0.1  # of a number on 40 slices
 
 def scan(cases: list[PumpingInputs]) -> dict[str, list[float]]:
     """Solve the cases of a scan, and return the values of each number of the first gear's spaces."""
-    rows = [numbers(next(spaces_of(solve(case)))) for case in cases]
+    rows = [numbers(next(spaces_of(solve_on_slices(case)))) for case in cases]
     return {name: [row[name] for row in rows] for name in rows[0]}
 
 
@@ -270,7 +270,7 @@ def check_no_jump_of(case: PumpingInputs, name: str) -> None:
             told = (name, number, k, values, case)
             step = abs(values[k + 1] - values[k])
             passing = sum(found[end][k] for end in ("front_out", "rear_out")) if number == "radial_flow" else 0.0
-            sides = [(solve(cases[place]), values[place]) for place in (k, k + 1)]
+            sides = [(solve_on_slices(cases[place]), values[place]) for place in (k, k + 1)]
             named = all("area_jump" in codes(side) for side, _ in sides)
             assert named or step <= LITTLE * (max(map(abs, values)) + passing), told
             assert step <= sum(uncertain(side, next(spaces_of(side)), number, value) for side, value in sides), told

@@ -14,8 +14,6 @@ from typing import Any
 
 from cachetools import LRUCache
 
-from app.calculations import CALCULATIONS
-
 Solver = Callable[[Any], Any]
 SHARED_FROM_S = 0.1  # a quicker result is not worth its file
 FOLDER = "SOLVED_REQUESTS"  # environment variable: where the processes of a run share results
@@ -23,6 +21,8 @@ FOLDER = "SOLVED_REQUESTS"  # environment variable: where the processes of a run
 
 def remember_solutions() -> None:
     """Let the endpoints of this process remember what they solved."""
+    from app.calculations import CALCULATIONS  # noqa: PLC0415  a process that only hands out tests does not need it
+
     known: LRUCache[bytes, Any] = LRUCache(1000)
     for calculation in CALCULATIONS:
         object.__setattr__(calculation, "solve", _remembering(calculation.path, calculation.solve, known))

@@ -66,7 +66,7 @@ class ThermalLead:
 @lru_cache(maxsize=64)
 def gas_heat(setup: PumpingSetup, pinion_speed: float) -> GasHeat:
     """Compute the temperature rise of the gas that a gear pair pumps. Raises the errors of `pumping.solve`."""
-    pumped = pumping.solve(PumpingInputs(setup, pinion_speed))
+    pumped = pumping.solve_on_slices(PumpingInputs(setup, pinion_speed))
     (at_pinion, pinion), (at_wheel, wheel) = _profile(pumped.pinion_spaces), _profile(pumped.wheel_spaces)
     spaces = (pumped.pinion_spaces, pumped.wheel_spaces)
     powers = [0.0 if result is None else result.pumping_power for result in spaces]

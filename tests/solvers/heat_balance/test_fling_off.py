@@ -57,7 +57,7 @@ def solved_heat(film: float, turn: float, along: int = 60, across: int = 50, ste
 
 @pytest.mark.parametrize(
     ("film", "turn"),
-    first(3, [(0.3, 1.0), (1.5, 5.0), (4.0, 1.0), (0.7, 0.3), (0.7, 3.0), (1.0, 1.0), (1.5, 0.2), (3.0, 0.5)]),
+    first(2, [(0.3, 1.0), (1.5, 5.0), (4.0, 1.0), (0.7, 0.3), (0.7, 3.0), (1.0, 1.0), (1.5, 0.2), (3.0, 0.5)]),
 )
 def test_closed_form_is_the_solved_film(film: float, turn: float) -> None:
     assert heat_number(film, turn) == pytest.approx(solved_heat(film, turn), rel=0.06)

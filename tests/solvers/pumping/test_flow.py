@@ -26,7 +26,7 @@ from solvers.pumping import (
 )
 from solvers.pumping.choking import choking_speeds
 from solvers.pumping.flow.nozzle import gas
-from solvers.pumping.model import solve
+from solvers.pumping.model import solve, solve_on_slices
 from solvers.pumping.results import SpacesResult
 from solvers.pumping.space.tooth_space import stroke_limits, tooth_space
 from solvers.pumping.spaces import prepare
@@ -89,7 +89,7 @@ def test_coarse_grids_dissipate_at_low_speed() -> None:
 
     def powers(slices: int, *speeds: float) -> list[float]:
         setup = PumpingSetup(gears, 0.0, model=replace(PRINTED, slices=slices))
-        return [pinion(solve(PumpingInputs(setup, speed))).pumping_power for speed in speeds]
+        return [pinion(solve_on_slices(PumpingInputs(setup, speed))).pumping_power for speed in speeds]
 
     slow, fast = powers(50, 20.0, 40.0)
     assert [fast] == pytest.approx(powers(100, 40.0), rel=5e-3)
@@ -105,8 +105,8 @@ def low_speed_exponent(setup: PumpingSetup, model: PumpingModel, mach: float = 0
     setup = replace(setup, model=replace(model, spaces=Spaces.PINION))
     gears = setup.gears
     tried = 10.0 / (gears.normal_module * (gears.pinion.teeth / 2 + 1 + gears.pinion.profile_shift))
-    slow = tried * mach / pinion(solve(PumpingInputs(setup, tried))).peak_axial_mach
-    one, two = (solve(PumpingInputs(setup, speed)).total.pumping_power for speed in (slow, 2 * slow))
+    slow = tried * mach / pinion(solve_on_slices(PumpingInputs(setup, tried))).peak_axial_mach
+    one, two = (solve_on_slices(PumpingInputs(setup, speed)).total.pumping_power for speed in (slow, 2 * slow))
     assert one > 0
     return log2(two / one)
 
@@ -114,14 +114,14 @@ def low_speed_exponent(setup: PumpingSetup, model: PumpingModel, mach: float = 0
 @examples(25, 100, setups(helix=False), st.floats(500, 30000), st.sampled_from(MODELS))
 def test_spur_gears_blow_alike_at_both_ends(setup: PumpingSetup, speed: float, model: PumpingModel) -> None:
     setup = replace(setup, model=replace(model, spaces=Spaces.PINION))
-    flow = pinion(solve(PumpingInputs(setup, speed * pi / 30))).mass_flow
+    flow = pinion(solve_on_slices(PumpingInputs(setup, speed * pi / 30))).mass_flow
     assert flow.front == pytest.approx(flow.rear, abs=1e-9 * (abs(flow.radial) + abs(flow.reset) + abs(flow.front)))
 
 
 @examples(25, 100, setups(helix=False), st.sampled_from(list(Closure)))
 def test_closed_pocket_keeps_its_entropy(setup: PumpingSetup, closure: Closure) -> None:
     model = PumpingModel(Flow.POCKET_CHAIN, closure, slices=1, spaces=Spaces.PINION, discharge_coefficient=0.0)
-    result = pinion(solve(PumpingInputs(replace(setup, model=model), 1000.0)))
+    result = pinion(solve_on_slices(PumpingInputs(replace(setup, model=model), 1000.0)))
     area = np.interp(result.field.angle, result.stroke.curves.angle, result.stroke.curves.area)[1:-1]
     product = result.field.pressure_ratio[1:-1, 0] * (area / result.stroke.curves.area[0]) ** 1.4
     assert product == pytest.approx(1, abs=1e-4)
@@ -172,7 +172,9 @@ def test_pulses_of_two_equal_gears_alternate() -> None:
         GearTeeth(40, 0.1), GearTeeth(40, 0.1), 5e-3, 0.1, pressure_angle=radians(20), rack_tip_radius=0.25
     )
     alone, both = (
-        solve(PumpingInputs(PumpingSetup(gears, 0.0, model=PumpingModel(gap=Gap.TIP, spaces=spaces)), 600.0)).pulsation
+        solve_on_slices(
+            PumpingInputs(PumpingSetup(gears, 0.0, model=PumpingModel(gap=Gap.TIP, spaces=spaces)), 600.0)
+        ).pulsation
         for spaces in (Spaces.PINION, Spaces.BOTH)
     )
     for end in ("front_mass_flow", "rear_mass_flow"):
@@ -192,9 +194,9 @@ def test_groove_as_wide_as_it_is_cuts_the_face_in_two() -> None:
 
 def test_groove_at_the_end_only_shortens_the_face() -> None:
     setup = PumpingSetup(CASE_1, grooves=(Groove(0.19, 0.02),), model=replace(PRINTED, slices=45))
-    cut = pinion(solve(PumpingInputs(setup, 900.0)))
+    cut = pinion(solve_on_slices(PumpingInputs(setup, 900.0)))
     narrow = PumpingSetup(replace(CASE_1, face_width=0.18), model=replace(PRINTED, slices=40))
-    plain = pinion(solve(PumpingInputs(narrow, 900.0)))
+    plain = pinion(solve_on_slices(PumpingInputs(narrow, 900.0)))
     assert cut.pumping_power == pytest.approx(plain.pumping_power, rel=2e-3)
     assert cut.mass_flow.rear == 0
     assert cut.mass_flow.grooves == pytest.approx(plain.mass_flow.rear, abs=0.02 * 30e-3)  # net of 30 g/s in and out
@@ -224,7 +226,7 @@ def test_choking_speed_is_where_the_flow_chokes() -> None:
     found = choking_speeds(ChokingInputs(setup, 60000 * pi / 30))
 
     def at(speed: float | None) -> SpacesResult:
-        return pinion(solve(PumpingInputs(setup, speed)))
+        return pinion(solve_on_slices(PumpingInputs(setup, speed)))
 
     radial, axial = at(found.radial_choking_speed), at(found.axial_choking_speed)
     assert radial.peak_pressure_ratio == pytest.approx(1.2**3.5, rel=2e-4)  # ((g + 1)/2)^(g/(g - 1)) = 1.8929

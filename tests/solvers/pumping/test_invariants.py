@@ -4,6 +4,7 @@ import re
 from collections import Counter
 from collections.abc import Callable, Iterable
 from dataclasses import replace
+from functools import cache
 from math import atan, pi, radians, sin, tan
 
 import numpy as np
@@ -18,7 +19,7 @@ from solvers.notices import Notice
 from solvers.published.milian import CASE_1, SPEED_1, pinion
 from solvers.pumping import Gap, Groove, PumpingInputs, PumpingModel, PumpingSetup, Spaces
 from solvers.pumping.lead_correction import EXPANSION, lead_correction
-from solvers.pumping.model import solve
+from solvers.pumping.model import solve_on_slices
 from solvers.pumping.results import SpacesResult
 from solvers.pumping.spaces import prepare
 from tests.support import pumping_cases
@@ -34,10 +35,11 @@ WEAK = PumpingSetup(
 )
 
 
+@cache
 def weak(rpm: float, slices: int = 100, helix: float = 20.0) -> float:
     """Return the peak gauge pressure of a pair that pumps weakly, divided by the ambient pressure."""
     setup = changed(WEAK, {"model.slices": slices, "gears.helix_angle": radians(helix)})
-    return pinion(solve(PumpingInputs(setup, rpm * pi / 30))).peak_pressure_ratio - 1
+    return pinion(solve_on_slices(PumpingInputs(setup, rpm * pi / 30))).peak_pressure_ratio - 1
 
 
 def test_weak_peaks_are_those_of_the_flow_and_grow_with_the_square_of_the_speed() -> None:
@@ -48,7 +50,7 @@ def test_weak_peaks_are_those_of_the_flow_and_grow_with_the_square_of_the_speed(
     assert closed_form == pytest.approx(0.0063, abs=1e-4)
     assert 0.85 * closed_form < weak(3000) < closed_form
     assert weak(3000, 50) == pytest.approx(weak(3000, 200), rel=5e-3)
-    assert [weak(rpm) / weak(1000) for rpm in (2000, 3000)] == pytest.approx([4, 9], rel=0.01)
+    assert [weak(rpm, 50) / weak(1000, 50) for rpm in (2000, 3000)] == pytest.approx([4, 9], rel=0.01)
 
 
 def test_a_stroke_that_begins_at_once_is_no_peak() -> None:
@@ -56,14 +58,14 @@ def test_a_stroke_that_begins_at_once_is_no_peak() -> None:
 
     The search found that the first steps of a weak spur gear overshot the balance of walls and gaps by a fifth.
     """
-    peaks = [weak(500, slices, helix=0.0) for slices in (25, 50, 100)]
+    peaks = [weak(500, slices, helix=0.0) for slices in (20, 40, 80)]
     assert peaks == pytest.approx([peaks[-1]] * 3, rel=3e-3)
 
 
 def test_a_slice_that_ends_its_stroke_within_a_step_is_no_peak() -> None:
     # a step that led 0.2 % of itself into the stroke shut the slice for the rest: 1.28 mbar at 344.0 K, 0.70 at 343.2
     cases = stored(PumpingInputs, "pumping", "stroke that ends within a step, at two temperatures")
-    peaks = [pinion(solve(case)).peak_pressure_ratio - 1 for case in cases]
+    peaks = [pinion(solve_on_slices(case)).peak_pressure_ratio - 1 for case in cases]
     assert peaks[1] == pytest.approx(peaks[0], rel=0.01)
 
 
@@ -79,7 +81,7 @@ def test_net_flows_change_with_the_centre_distance_steadily(spaces: Spaces, star
 def at_centre_distance(millimetres: float, spaces: Spaces, slices: int = 100) -> SpacesResult:
     gears = replace(CASE_1, centre_distance=1e-3 * millimetres)
     setup = PumpingSetup(gears, model=PumpingModel(spaces=spaces, slices=slices))
-    return next(pumping_cases.spaces_of(solve(PumpingInputs(setup, SPEED_1 * pi / 30))))
+    return next(pumping_cases.spaces_of(solve_on_slices(PumpingInputs(setup, SPEED_1 * pi / 30))))
 
 
 def test_net_flows_are_known_as_well_as_they_say() -> None:
@@ -87,13 +89,13 @@ def test_net_flows_are_known_as_well_as_they_say() -> None:
     assert max(abs(here.front - fine.front), abs(here.rear - fine.rear)) < here.net_uncertainty
     assert here.net_uncertainty < 0.2 * min(here.front, here.rear)  # three times a change of 6 %
     coarse = PumpingSetup(CASE_1, model=PumpingModel(slices=20))
-    assert "net_flow_uncertain" in codes(solve(PumpingInputs(coarse, 300.0)))
+    assert "net_flow_uncertain" in codes(solve_on_slices(PumpingInputs(coarse, 300.0)))
 
 
 def test_gross_flows_of_case_1() -> None:
     # one calculation without wall transport: out 18.3 and 29.6, in 13.3 and 25.3, net 4.96 and 4.25 g/s
     setup = PumpingSetup(CASE_1, model=PumpingModel(wall_transport=False, spaces=Spaces.PINION, slices=200))
-    flow = pinion(solve(PumpingInputs(setup, SPEED_1 * pi / 30))).mass_flow
+    flow = pinion(solve_on_slices(PumpingInputs(setup, SPEED_1 * pi / 30))).mass_flow
     gross = np.array([flow.front_out, flow.rear_out, flow.front_in, flow.rear_in]) * 1e3
     assert gross == pytest.approx([18.3, 29.6, 13.3, 25.3], rel=0.02)
 
@@ -160,7 +162,7 @@ def test_uniform_warmth_turns_the_helix() -> None:
 
 @pytest.mark.parametrize("gears", [FZG_A, INCH_PAIR])
 def test_printed_pairs_pump(gears: GearPairInputs) -> None:
-    result = solve(PumpingInputs(PumpingSetup(gears, 0.1e-3, model=PumpingModel(slices=20)), 300.0))
+    result = solve_on_slices(PumpingInputs(PumpingSetup(gears, 0.1e-3, model=PumpingModel(slices=20)), 300.0))
     assert result.geometry.centre_distance == result.geometry.backlash_free_centre_distance
     assert result.total.pumping_power > 0
     assert result.geometry.transverse_contact_ratio == meshing_path(gears).transverse_contact_ratio
@@ -194,26 +196,26 @@ def verdict_of(attempt: Callable[[PumpingSetup], Iterable[Notice]], setup: Pumpi
 def test_advice_on_speed_is_on_that_of_the_pinion(spaces: Spaces) -> None:
     setup = PumpingSetup(CASE_1, model=PumpingModel(spaces=spaces, slices=400))
     with pytest.raises(InvalidInput) as refusal:
-        solve(PumpingInputs(setup, 300 * pi / 30))
+        solve_on_slices(PumpingInputs(setup, 300 * pi / 30))
     assert (refusal.value.code, refusal.value.field) == ("too_many_steps", "pinion_speed")
     found = re.search(r"at least ([\d.e+]+) rpm, use at most (\d+) slices", refusal.value.message)
     fits = changed(setup, {"model.slices": int(found.group(2))})
-    assert solve(PumpingInputs(fits, 300 * pi / 30)).slices == int(found.group(2))
+    assert solve_on_slices(PumpingInputs(fits, 300 * pi / 30)).slices == int(found.group(2))
 
 
 def test_a_sliver_of_face_beside_a_groove_is_named() -> None:
     setup = PumpingSetup(CASE_1, grooves=(Groove(0.008001, 0.016),))
-    assert refused(solve, PumpingInputs(setup, SPEED_1 * pi / 30)) == ("narrow_land", "grooves")
+    assert refused(solve_on_slices, PumpingInputs(setup, SPEED_1 * pi / 30)) == ("narrow_land", "grooves")
 
 
-@pytest.mark.parametrize("seed", range(10))
+@pytest.mark.parametrize("seed", first(3, range(10)))
 def test_books_close(seed: int) -> None:
     pumping_cases.check_books(np.random.default_rng(seed))
 
 
 def test_where_pressures_are_lost_no_number_is_called_known() -> None:
     # a space that nearly closes: twice the slices let the peak fall from 0.27 to 0.16 bar, the power from 221 to 143 W
-    result = solve(*stored(PumpingInputs, "pumping", "space that nearly closes"))
+    result = solve_on_slices(*stored(PumpingInputs, "pumping", "space that nearly closes"))
     assert result.resolution.pumping_power >= 1.0
     assert "not_resolved" in codes(result)
 
@@ -256,14 +258,14 @@ def test_a_jump_of_the_area_is_named_and_nothing_claimed_beyond_it() -> None:
     A finer grid does not change this jump.
     """
     (inputs,) = stored(PumpingInputs, "pumping", "jump of the area")
-    result = solve(inputs)
+    result = solve_on_slices(inputs)
     told = {notice.code: notice.message for notice in result.warnings}
     assert set(told) == {"area_jump", "not_resolved", "net_flow_uncertain", "spur_gear"}
     assert "at -11.40 deg the area of a tooth space jumps by 84 %" in told["area_jump"]
     peak = pinion(result).peak_pressure_ratio
     assert result.resolution.peak_pressure == pytest.approx(1.35 * peak / (peak - 1.0), rel=0.01)
     pumping_cases.check_resolution_of(inputs)
-    assert "area_jump" not in codes(solve(changed(inputs, {"setup.model.gap": Gap.CONTACT})))
+    assert "area_jump" not in codes(solve_on_slices(changed(inputs, {"setup.model.gap": Gap.CONTACT})))
 
 
 def test_a_stroke_faster_than_sound_takes_one_course() -> None:
@@ -271,7 +273,10 @@ def test_a_stroke_faster_than_sound_takes_one_course() -> None:
     (inputs,) = stored(PumpingInputs, "pumping", "stroke faster than sound")
     pumping_cases.check_resolution_of(inputs)
     wheel = changed(inputs, {"setup.model.spaces": Spaces.WHEEL})
-    net = [solve(changed(wheel, {"setup.model.slices": slices})).wheel_spaces.mass_flow.rear for slices in (100, 200)]
+    net = [
+        solve_on_slices(changed(wheel, {"setup.model.slices": slices})).wheel_spaces.mass_flow.rear
+        for slices in (100, 200)
+    ]
     assert net[0] == pytest.approx(net[1], rel=0.04)
 
 
@@ -288,7 +293,8 @@ def test_waves_that_stay_with_the_meshing_line_are_not_called_resolved() -> None
     )
     setup = PumpingSetup(gears, normal_backlash=0.49e-3)
     coarse, fine = (
-        solve(PumpingInputs(replace(setup, model=PumpingModel(slices=slices)), 2682 * pi / 30)) for slices in (100, 400)
+        solve_on_slices(PumpingInputs(replace(setup, model=PumpingModel(slices=slices)), 2682 * pi / 30))
+        for slices in (100, 400)
     )
     stated = {"peak_pressure": coarse.resolution.peak_pressure, "min_pressure": coarse.resolution.min_pressure}
     for here, there in zip(pumping_cases.spaces_of(coarse), pumping_cases.spaces_of(fine), strict=True):

@@ -244,8 +244,8 @@ def test_a_speed_scan_takes_fewer_slices_where_it_would_not_end() -> None:
     In a generated request, the choking figure of a disk-shaped gear once took more than half a minute.
     """
     disk = GearPairInputs(GearTeeth(94), GearTeeth(408), 14e-3, 0.3e-3, rack_tip_radius=0.25)
-    curves = speed_scan(PumpingSetup(disk), np.linspace(5_000, 60_000, 12) * pi / 30)
+    curves = speed_scan(PumpingSetup(disk), np.linspace(5_000, 60_000, 6) * pi / 30)
     solved = np.isfinite(curves.exit_mach)
-    assert 4 <= solved.sum() < 12
+    assert 2 <= solved.sum() < 6
     assert solved[-1]
     assert not solved[0]

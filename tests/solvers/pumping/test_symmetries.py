@@ -7,8 +7,8 @@ from numpy.random import Generator
 
 from solvers.arrays import FloatArray
 from solvers.pumping import Flow, Gap, Groove, PumpingInputs, PumpingModel, Spaces
-from solvers.pumping.model import solve
-from solvers.pumping.results import PumpingResult
+from solvers.pumping.model import solve_on_slices
+from solvers.pumping.spaces import prepare
 from tests.support.answers import differences, leaves
 from tests.support.changes import changed
 from tests.support.properties import seeds
@@ -30,16 +30,18 @@ def draw_case(random: Generator) -> PumpingInputs:
 def test_a_pair_of_the_other_hand(random: Generator) -> None:
     inputs = draw_case(random)
     helix = inputs.setup.gears.helix_angle
-    assert not differences(solve(inputs), solve(changed(inputs, {"setup.gears.helix_angle": -helix})), tolerance=0.0)
+    assert not differences(
+        solve_on_slices(inputs), solve_on_slices(changed(inputs, {"setup.gears.helix_angle": -helix})), tolerance=0.0
+    )
 
 
 @seeds(4, 200)
 def test_each_gear_pumps_as_if_alone(random: Generator) -> None:
     inputs = draw_case(random)
-    both = solve(inputs)
+    both = solve_on_slices(inputs)
     for spaces in (Spaces.PINION, Spaces.WHEEL):
         name = f"{spaces}_spaces"
-        alone = solve(changed(inputs, {"setup.model.spaces": spaces}))
+        alone = solve_on_slices(changed(inputs, {"setup.model.spaces": spaces}))
         assert not differences(getattr(both, name), getattr(alone, name), tolerance=0.0)
 
 
@@ -52,7 +54,7 @@ def test_grooves_of_a_spur_pair_counted_from_its_other_end(random: Generator) ->
     if random.random() < 0.5:
         grooves += (Groove(width * random.uniform(0.6, 0.8), width * random.uniform(0.03, 0.1)),)
     turned = tuple(Groove(width - groove.position, groove.width) for groove in reversed(grooves))
-    one, other = (solve(changed(inputs, {"setup.grooves": each})) for each in (grooves, turned))
+    one, other = (solve_on_slices(changed(inputs, {"setup.grooves": each})) for each in (grooves, turned))
     before = leaves(one)
 
     def expected(name: str, values: FloatArray, _: str | None) -> FloatArray:
@@ -82,15 +84,13 @@ def test_the_spaces_of_a_driven_gear_are_those_of_a_driver_gone_through_from_beh
     inputs = draw_case(random)
     gears = inputs.setup.gears
     exchanged = changed(inputs, {"setup.gears.pinion": gears.wheel, "setup.gears.wheel": gears.pinion})
-    one, other = solve(inputs), solve(exchanged)
 
-    def strokes(result: PumpingResult) -> list[FloatArray]:
-        spaces = result.pinion_spaces, result.wheel_spaces
-        curves = [each.stroke.curves for each in spaces if each is not None]
-        return [np.stack((c.angle, c.area, c.clearance_left, c.clearance_right)) for c in curves]
+    def strokes(case: PumpingInputs) -> list[FloatArray]:
+        tables = [space.table for space in prepare(case.setup).spaces]
+        return [np.stack((each.angle, each.area, each.clearance_left, each.clearance_right)) for each in tables]
 
     turned = np.array([-1.0, 1.0, 1.0, 1.0])[:, None]
-    for here, there in zip(strokes(one), strokes(other)[::-1], strict=True):
+    for here, there in zip(strokes(inputs), strokes(exchanged)[::-1], strict=True):
         mirrored = turned * there[[0, 1, 3, 2], ::-1]
         scale = np.abs(here).max(axis=1, keepdims=True)
         assert np.abs(mirrored - here).max(where=scale > 0, initial=0.0) < 1e-9 * scale.max()

@@ -18,8 +18,10 @@ from solvers.pumping import (
     solve,
 )
 from solvers.pumping.inputs import MOST_SLICES
+from solvers.pumping.model import solve_on_slices
 from solvers.pumping.spaces import prepare
 from solvers.pumping.verdict import Band, Bands, bands, decide, on_grids
+from tests.support.answers import differences
 from tests.support.properties import seeds
 from tests.support.pumping_cases import random_gears
 
@@ -27,11 +29,11 @@ RPM = pi / 30
 
 
 @cache
-def solved(speed: float, slices: int = 100) -> PumpingResult:
-    return solve(wide_pair(speed, slices))
+def solved(slices: int) -> PumpingResult:
+    return solve(wide_pair(12000.0, slices))
 
 
-def wide_pair(speed: float, slices: int = 100) -> PumpingInputs:
+def wide_pair(speed: float, slices: int) -> PumpingInputs:
     """Return a pair of 32 and 96 teeth with a face of 220 mm, which draws in its air faster than it pushes it out."""
     gears = GearPairInputs(
         GearTeeth(32), GearTeeth(96), 5e-3, 0.22, helix_angle=radians(25.0), rack_tip_radius=GROUND_FILLET
@@ -41,7 +43,7 @@ def wide_pair(speed: float, slices: int = 100) -> PumpingInputs:
 
 def test_the_inflow_chokes_long_before_the_outflow() -> None:
     """At 12,000 1/min the air draws in at its critical velocity, but the answer said "choking: no" and "Ma 1.01"."""
-    found = solved(12000.0)
+    found = solved(100)
     choking, pinion = found.choking, found.pinion_spaces
     assert (choking.outflow, choking.inflow, choking.clearances) == ("not choked", "choked", "not choked")
     assert choking.slices > 100
@@ -49,23 +51,27 @@ def test_the_inflow_chokes_long_before_the_outflow() -> None:
     assert pinion is not None
     assert not pinion.axial_choked
     assert max(pinion.front_end.outflow_mach, pinion.rear_end.outflow_mach) < 0.5
-    fine = solved(12000.0, MOST_SLICES).pinion_spaces
+    fine = solved(MOST_SLICES).pinion_spaces
     assert fine is not None
     assert fine.inflow_choked is (fine.front_end.inflow_choked or fine.rear_end.inflow_choked) is True
+
+
+def test_only_the_verdict_needs_finer_grids() -> None:
+    plain = solve_on_slices(wide_pair(12000.0, 100))
+    assert plain.choking.slices == 100
+    assert not differences(solved(100), plain, tolerance=0.0, without=r"^choking\.")
 
 
 def test_the_verdict_does_not_depend_on_the_slices_of_the_request() -> None:
     words = {
         (found.choking.outflow, found.choking.inflow, found.choking.clearances)
-        for found in (solved(12000.0, slices) for slices in (100, MOST_SLICES))
+        for found in (solved(slices) for slices in (100, MOST_SLICES))
     }
     assert len(words) == 1
 
 
 def test_no_advice_to_use_more_than_is_allowed() -> None:
-    texts = {
-        slices: " ".join(notice.message for notice in solved(12000.0, slices).warnings) for slices in (100, MOST_SLICES)
-    }
+    texts = {slices: " ".join(notice.message for notice in solved(slices).warnings) for slices in (100, MOST_SLICES)}
     assert "use more slices" in texts[100]
     assert "use more slices" not in texts[MOST_SLICES]
 

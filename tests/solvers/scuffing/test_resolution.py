@@ -2,13 +2,14 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 from math import radians
 
 import numpy as np
 import pytest
 
 from solvers.gears.inputs import GearPairInputs, GearTeeth
-from solvers.gears.pair import meshing_path
+from solvers.gears.pair import PathOfContact, meshing_path
 from solvers.published.xue import paper_gears, paper_pair
 from solvers.scuffing.inputs import LoadDistributionInputs, Model, Modifications, Resolution
 from solvers.scuffing.model import solve as solve_load_distribution
@@ -19,7 +20,7 @@ from tests.support.properties import first
 from tests.support.stored import stored
 
 CASES = [
-    *first(2, ([1, case] for case in range(5))),
+    *first(1, ([1, case] for case in range(5))),
     *(pytest.param([2, case], marks=pytest.mark.slow) for case in range(60)),
 ]
 
@@ -94,15 +95,17 @@ def taller(addendum: float, helix: float = 20.2) -> GearPairInputs:
     return replace(paper_gears(3), pinion=teeth[0], wheel=teeth[1], helix_angle=radians(helix), rack_tip_radius=0.2)
 
 
+@cache
+def taller_paths() -> list[PathOfContact]:
+    return [meshing_path(taller(float(addendum))) for addendum in np.linspace(0.45, 1.45, 4001)]
+
+
 @pytest.mark.parametrize("ratio", [1.0, 2.0])
 def test_default_relief_lengths_are_continuous_in_the_contact_ratio(ratio: float) -> None:
-    addenda = np.linspace(0.45, 1.45, 4001)
-    paths = [meshing_path(taller(float(addendum))) for addendum in addenda]
-    ratios = np.array([path.transverse_contact_ratio for path in paths])
-    assert ratios[0] < ratio < ratios[-1]
-    lengths = np.array([gap(Modifications(tip_relief=1e-6), path).tip_relief_length / path.length for path in paths])
-    near = np.abs(ratios - ratio) < 0.05
-    assert np.max(np.abs(np.diff(lengths[near]))) < 5e-4
+    paths = [path for path in taller_paths() if abs(path.transverse_contact_ratio - ratio) < 0.05]
+    assert paths[0].transverse_contact_ratio < ratio < paths[-1].transverse_contact_ratio
+    lengths = [gap(Modifications(tip_relief=1e-6), path).tip_relief_length / path.length for path in paths]
+    assert np.max(np.abs(np.diff(lengths))) < 5e-4
 
 
 @pytest.mark.parametrize(

@@ -31,14 +31,18 @@ from solvers.contact.ehl.state import State, Work, evaluate_state, linearise_sta
 from solvers.contact.ehl.temperature import inlet_step
 from solvers.lubricants import Lubricant
 from tests.support.line_contacts import at_pressure, random_contacts
+from tests.support.properties import first
 
 THERMAL = {name: Model(rheology=name, nodes=61, film_nodes=11) for name in get_args(Rheology)}
 ISOTHERMAL = {name: replace(model, thermal=False) for name, model in THERMAL.items()}
-STATES = 20
+FEW, MANY = 10, 20  # states of contacts
 STEP = 1e-30  # of the complex step: far below rounding, far above the smallest number
 SIMPLE_OIL = Lubricant(viscosity=0.03, pressure_viscosity_law="barus", pressure_viscosity=1e-8, compressible=False)
 
-rheologies = pytest.mark.parametrize("rheology", list(THERMAL))
+rheologies = pytest.mark.parametrize(
+    ("rheology", "count"),
+    first(len(THERMAL), [*((name, FEW) for name in THERMAL), *((name, MANY) for name in THERMAL)]),
+)
 
 
 class At(NamedTuple):
@@ -91,23 +95,23 @@ class At(NamedTuple):
         return Carried(film.flow.stream, self.work.heat.fluid_fraction, film.shear.density)
 
 
-def contacts(model: Model) -> list[LineContactInputs]:
+def contacts(model: Model, count: int) -> list[LineContactInputs]:
     """Return random contacts, lightly loaded contacts, contacts with a simpler oil, and a contact in pure rolling."""
     light = [at_pressure(p, ratio, 5.0, 0.05, 10e-3, model) for p, ratio in ((2e7, 0.3), (5e7, -0.8), (1e8, 1.2))]
     simple = [replace(inputs, lubricant=SIMPLE_OIL) for inputs in random_contacts(model, 3, seed=5)]
     rolling = [at_pressure(0.8e9, 0.0, 3.0, 0.02, 8e-3, model)]
-    return [*random_contacts(model, STATES - 7, seed=4), *light, *simple, *rolling]
+    return [*random_contacts(model, count - 7, seed=4), *light, *simple, *rolling]
 
 
 @cache
-def states(model: Model) -> list[At]:
+def states(model: Model, count: int) -> list[At]:
     """Return states near solutions. They differ from the solutions in pressures, separation and temperatures."""
-    return list(_states(model))
+    return list(_states(model, count))
 
 
-def _states(model: Model) -> Iterator[At]:
+def _states(model: Model, count: int) -> Iterator[At]:
     draw = np.random.default_rng(0)
-    for inputs in contacts(model):
+    for inputs in contacts(model, count):
         constants = problem(inputs, groups(inputs))
         resolution = resolution_for(inputs)
         attempt = solve_cold(constants, resolution, budget_for(resolution))
@@ -180,14 +184,14 @@ def assert_near(found: FloatArray, expected: FloatArray, tolerance: float) -> No
 
 
 @rheologies
-def test_residual_of_a_thermal_contact(rheology: str) -> None:
+def test_residual_of_a_thermal_contact(rheology: str, count: int) -> None:
     """The residuals agree to 1e-12.
 
     This tolerance is relative to the largest flux that the surfaces drag, to the largest heat in the film, and to the
     largest temperature. For the dimensionless load the tolerance is absolute.
     """
-    assert len(states(THERMAL[rheology])) == STATES
-    for at in states(THERMAL[rheology]):
+    assert len(states(THERMAL[rheology], count)) == count
+    for at in states(THERMAL[rheology], count):
         found, expected = of_kernels(at), at.residual(at.unknowns)
         assert np.abs(found.mass - expected.mass).max() < 1e-12 * at.dragged
         assert abs(found.load - expected.load) < 1e-12
@@ -197,9 +201,9 @@ def test_residual_of_a_thermal_contact(rheology: str) -> None:
 
 
 @rheologies
-def test_residual_of_an_isothermal_contact(rheology: str) -> None:
-    assert len(states(ISOTHERMAL[rheology])) == STATES
-    for at in states(ISOTHERMAL[rheology]):
+def test_residual_of_an_isothermal_contact(rheology: str, count: int) -> None:
+    assert len(states(ISOTHERMAL[rheology], count)) == count
+    for at in states(ISOTHERMAL[rheology], count):
         mass, load = equations.isothermal_residual(
             at.problem, at.grid, at.state.cavitated, at.state.pressure, at.state.separation[0]
         )
@@ -209,8 +213,8 @@ def test_residual_of_an_isothermal_contact(rheology: str) -> None:
 
 
 @rheologies
-def test_jacobian_of_an_isothermal_contact(rheology: str) -> None:
-    for at in states(ISOTHERMAL[rheology]):
+def test_jacobian_of_an_isothermal_contact(rheology: str, count: int) -> None:
+    for at in states(ISOTHERMAL[rheology], count):
         n = at.grid.x.size
         found, expected = np.empty((2, n + 1, n + 1))
         at.set_jacobian(found)
@@ -223,8 +227,8 @@ def test_jacobian_of_an_isothermal_contact(rheology: str) -> None:
 
 
 @rheologies
-def test_jacobian_of_mass_at_given_temperatures(rheology: str) -> None:
-    for at in states(THERMAL[rheology]):
+def test_jacobian_of_mass_at_given_temperatures(rheology: str, count: int) -> None:
+    for at in states(THERMAL[rheology], count):
         n = at.grid.x.size
         found, expected = np.empty((2, n + 1, n + 1))
         at.set_jacobian(found)
@@ -237,8 +241,8 @@ def test_jacobian_of_mass_at_given_temperatures(rheology: str) -> None:
 
 
 @rheologies
-def test_derivative_of_mass_by_temperatures(rheology: str) -> None:
-    for seed, at in enumerate(states(THERMAL[rheology])):
+def test_derivative_of_mass_by_temperatures(rheology: str, count: int) -> None:
+    for seed, at in enumerate(states(THERMAL[rheology], count)):
         n, k = at.state.temperature.shape
         direction = directions(at, of_pressure=False, seed=seed)
         found = np.zeros(n + 1)
@@ -249,25 +253,25 @@ def test_derivative_of_mass_by_temperatures(rheology: str) -> None:
 
 @rheologies
 @pytest.mark.parametrize("of_pressure", [True, False])
-def test_derivative_of_heat(rheology: str, *, of_pressure: bool) -> None:
+def test_derivative_of_heat(rheology: str, count: int, *, of_pressure: bool) -> None:
     """The heat residual is differentiated by all pressures and H0, or by all temperatures.
 
     The rows of the surfaces are compared separately, because their residuals are temperatures.
     """
-    for seed, at in enumerate(states(THERMAL[rheology])):
+    for seed, at in enumerate(states(THERMAL[rheology], count)):
         direction = directions(at, of_pressure=of_pressure, seed=seed)
         found, expected = heat_slope_of_kernels(at, direction), at.slope(direction).heat
         assert_near(found[1:, 1:-1], expected[1:, 1:-1], 1e-10)
         assert_near(found[1:, [0, -1]], expected[1:, [0, -1]], 1e-10)
 
 
-@rheologies
+@pytest.mark.parametrize("rheology", THERMAL)
 def test_newtons_step_solves_the_linearised_equations(rheology: str) -> None:
     """The step by elimination of the columns, march and GMRES agrees with a dense solution to within 2 %.
 
     GMRES stops if the remaining error is below 1 %.
     """
-    at = states(THERMAL[rheology])[0]
+    at = states(THERMAL[rheology], FEW)[0]
     n, k = at.state.temperature.shape
     size = n + 1 + n * k
     dense = np.empty((size, size))
