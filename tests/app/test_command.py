@@ -3,6 +3,7 @@
 import io
 import json
 import os
+import resource
 import socket
 import subprocess
 import sys
@@ -11,7 +12,7 @@ from typing import Any, TextIO
 
 import pytest
 
-from app.command import main
+from app.command import main, warn_of_few_descriptors
 from app.errors import InvalidBody, Unprocessable
 from app.evaluate import answer
 from tests.support.server import ROOT
@@ -142,3 +143,14 @@ def test_a_taken_port_is_one_line() -> None:
     assert ended.returncode == 1
     assert len(ended.stderr.splitlines()) == 1
     assert f"cannot listen on port {port} of 127.0.0.1" in ended.stderr
+
+
+@pytest.mark.parametrize(("limit", "line"), [(31, "only 31 files may be open at once, fewer than 32"), (32, "")])
+def test_too_few_descriptors_are_told(
+    limit: int, line: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(resource, "getrlimit", lambda _: (limit, 4096))
+    warn_of_few_descriptors()
+    said = capsys.readouterr().err
+    assert line in said
+    assert bool(said) == bool(line)
