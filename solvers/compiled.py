@@ -17,7 +17,7 @@ from solvers.kernel_cache import FOLDER
 
 P = ParamSpec("P")
 R = TypeVar("R")
-SECONDS_EACH = 2.0  # s of one core, mean over all kernels
+SECONDS_EACH = 2.2  # s of one core, mean over all kernels
 OPTIONS = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
 
 
@@ -31,8 +31,8 @@ def kernel(function: Callable[P, R]) -> Callable[P, R]:
 def inner_kernel(function: Callable[P, R]) -> Callable[P, R]:
     """Compile a function that only kernels call, as a part of their machine code.
 
-    What makes it callable from Python and keeps it on disk would take a third of its compilation. If Python calls the
-    function nevertheless, Python runs it; a test compiles it with `kernel`.
+    What makes a function callable from Python and keeps it on disk would take a third of its compilation. If Python
+    calls an inner kernel nevertheless, Python runs it uncompiled; a test can compile it with `kernel`.
     """
     return cast("Callable[P, R]", register_jitable(**OPTIONS)(function))
 

@@ -19,7 +19,7 @@ import numba
 
 from solvers.digest import cache_base, package_digest
 
-NEEDED_BYTES = 100_000_000  # all kernels take 25 MB
+NEEDED_BYTES = 30_000_000  # all kernels take 6 MB
 KEPT_FOLDERS = 5  # chosen: a developer switches between at most this number of versions
 
 logger = logging.getLogger(__name__)
