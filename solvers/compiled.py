@@ -18,7 +18,7 @@ from solvers.kernel_cache import FOLDER
 P = ParamSpec("P")
 R = TypeVar("R")
 SECONDS_EACH = 2.2  # s of one core, mean over all kernels
-OPTIONS = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}
+OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}  # no C code calls kernels
 
 
 def kernel(function: Callable[P, R]) -> Callable[P, R]:
@@ -34,7 +34,7 @@ def inner_kernel(function: Callable[P, R]) -> Callable[P, R]:
     What makes a function callable from Python and keeps it on disk would take a third of its compilation. If Python
     calls an inner kernel nevertheless, Python runs it uncompiled; a test can compile it with `kernel`.
     """
-    return cast("Callable[P, R]", register_jitable(**OPTIONS)(function))
+    return register_jitable(**OPTIONS)(function)
 
 
 def inlined_kernel(function: Callable[P, R]) -> Callable[P, R]:
@@ -44,7 +44,7 @@ def inlined_kernel(function: Callable[P, R]) -> Callable[P, R]:
     arrays may be called at every step of a loop, for example at every column of a film. The counting could then take
     twice as long as the calculation in the kernel.
     """
-    return cast("Callable[P, R]", register_jitable(forceinline=True, **OPTIONS)(function))
+    return register_jitable(forceinline=True, **OPTIONS)(function)
 
 
 class Announcement(event.Listener):
