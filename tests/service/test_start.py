@@ -298,7 +298,7 @@ def test_kernels_of_a_cache_that_cannot_be_written_are_used(tmp_path: Path) -> N
         wait_until_warm(process, address)
         assert httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=60).status_code == 200
         assert httpx.post(address + LINE_CONTACT.endpoint, json=LINE_CONTACT.request, timeout=60).status_code == 200
-    assert log.read_text("utf-8").count("compiled kernels are not kept") == 1
+    assert "every worker compiles" not in log.read_text("utf-8")
     assert not machine_code_in(folder)
     (completed,) = temporary.glob(f"tribodrive-*/{folder.name}")
     assert machine_code(completed)
