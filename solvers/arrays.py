@@ -5,6 +5,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from solvers.compiled import inner_kernel
+
 FloatArray = NDArray[np.float64]
 BoolArray = NDArray[np.bool_]
 IntArray = NDArray[np.int64]
@@ -53,3 +55,13 @@ def records(shape: int | tuple[int, ...], fields: Fields) -> RecordArray:
 def floats(*names: str) -> Fields:
     """Return the names and types of record fields that hold one float each."""
     return [(name, np.float64) for name in names]
+
+
+@inner_kernel
+def copy(source: FloatArray, target: FloatArray, count: int) -> None:
+    """Copy the first `count` elements of a vector to another one.
+
+    For an assignment between slices, numba would compile the text of its error, which takes as long as ten kernels.
+    """
+    for i in range(count):
+        target[i] = source[i]

@@ -1,4 +1,4 @@
-"""The two decorators with which numba compiles every kernel of this package.
+"""The decorators with which numba compiles every kernel of this package.
 
 A kernel is compiled when it is first called with arguments of given types. The machine code of the kernel is kept on
 disk (see `solvers.kernel_cache`). In a kernel, a division by zero gives infinity or NaN, as in IEEE 754. No exception
@@ -11,27 +11,40 @@ from typing import Any, ParamSpec, TypeVar, cast
 
 import numba
 from numba.core import event
+from numba.extending import register_jitable
 
 from solvers.kernel_cache import FOLDER
 
 P = ParamSpec("P")
 R = TypeVar("R")
-SECONDS_EACH = 0.25  # s of one core, mean over all kernels
+SECONDS_EACH = 2.2  # s of one core, mean over all kernels
+OPTIONS: dict[str, Any] = {"error_model": "numpy", "nogil": True, "no_cfunc_wrapper": True}  # no C code calls kernels
 
 
 def kernel(function: Callable[P, R]) -> Callable[P, R]:
-    """Compile a function of scalars and arrays."""
-    return _compiled(function)
+    """Compile a function of scalars and arrays that Python calls."""
+    compiled = numba.njit(cache=FOLDER is not None, **OPTIONS)(function)
+    announcement.add(compiled)
+    return cast("Callable[P, R]", compiled)
+
+
+def inner_kernel(function: Callable[P, R]) -> Callable[P, R]:
+    """Compile a function that only kernels call, as a part of their machine code.
+
+    What makes a function callable from Python and keeps it on disk would take a third of its compilation. If Python
+    calls an inner kernel nevertheless, Python runs it uncompiled; a test can compile it with `kernel`.
+    """
+    return register_jitable(**OPTIONS)(function)
 
 
 def inlined_kernel(function: Callable[P, R]) -> Callable[P, R]:
-    """Compile a kernel whose code is copied into the kernels that call it.
+    """Compile an inner kernel whose code is copied into the kernels that call it.
 
     If the code were not copied, numba would count the references to every array in a call. A kernel that takes many
     arrays may be called at every step of a loop, for example at every column of a film. The counting could then take
     twice as long as the calculation in the kernel.
     """
-    return _compiled(function, forceinline=True)
+    return register_jitable(forceinline=True, **OPTIONS)(function)
 
 
 class Announcement(event.Listener):
@@ -65,10 +78,3 @@ class Announcement(event.Listener):
 
 announcement = Announcement()
 event.register("numba:compile", announcement)
-
-
-def _compiled(function: Callable[P, R], *, forceinline: bool = False) -> Callable[P, R]:
-    keep = FOLDER is not None
-    compiled = numba.njit(cache=keep, error_model="numpy", nogil=True, forceinline=forceinline)(function)
-    announcement.add(compiled)
-    return cast("Callable[P, R]", compiled)

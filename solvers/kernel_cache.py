@@ -5,7 +5,6 @@ outdated machine code. The name of the folder is therefore a hash of all sources
 version: after every edit, numba uses a new folder. This module must be imported before the first kernel is decorated.
 """
 
-import getpass
 import logging
 import os
 import shutil
@@ -19,7 +18,7 @@ import numba
 
 from solvers.digest import cache_base, package_digest
 
-NEEDED_BYTES = 100_000_000  # all kernels take 25 MB
+NEEDED_BYTES = 30_000_000  # all kernels take 6 MB
 KEPT_FOLDERS = 5  # chosen: a developer switches between at most this number of versions
 
 logger = logging.getLogger(__name__)
@@ -53,7 +52,10 @@ def _own_folder(name: str, existing: Path) -> Path | None:
 
     Kernels are pickled objects, so a folder of another user is never used.
     """
-    base = Path(tempfile.gettempdir()) / f"tribodrive-{getpass.getuser()}"
+    try:
+        base = Path(tempfile.gettempdir()) / f"tribodrive-{os.getuid()}"
+    except FileNotFoundError:  # no folder for temporary files can be written either
+        return None
     try:
         base.mkdir(mode=0o700, exist_ok=True)
         status = base.lstat()

@@ -19,7 +19,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solvers.arrays import FloatArray, without_rounding
-from solvers.compiled import kernel
+from solvers.compiled import inner_kernel, kernel
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.kinematics import (
     MeshMotion,
@@ -66,7 +66,7 @@ class Unbalance(NamedTuple):
     yy: float
 
 
-@kernel
+@inner_kernel
 def add_friction_moment(
     moment: float, ahead: FloatArray, normal: FloatArray, arm: FloatArray, hessian: Hessian
 ) -> tuple[float, float, float]:
@@ -90,7 +90,7 @@ def add_friction_moment(
     return moment, slope.x, slope.y
 
 
-@kernel
+@inner_kernel
 def unbalanced_force(
     interference: FloatArray,
     normal: FloatArray,
@@ -122,7 +122,7 @@ def unbalanced_force(
     return Unbalance(hypot(x, y), x, y, 1.0 - lever * xx, -lever * xy, -lever * yx, 1.0 - lever * yy)
 
 
-@kernel
+@inner_kernel
 def balance_sleeve(
     interference: FloatArray,
     normal: FloatArray,
@@ -190,7 +190,7 @@ def balance_sleeve(
                 step_y = (unbalance.xx * unbalance.y - unbalance.yx * unbalance.x) / determinant
         x, y = accepted_x + length * step_x, accepted_y + length * step_y
         shortened = min(1.0, force_limit / hypot(x, y))
-        force[:] = shortened * x, shortened * y
+        force[0], force[1] = shortened * x, shortened * y
     return accepted_residual
 
 

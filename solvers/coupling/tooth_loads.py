@@ -22,7 +22,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solvers.arrays import ROUNDING, FloatArray, IntArray, frozen
-from solvers.compiled import kernel
+from solvers.compiled import inner_kernel, kernel
 from solvers.coupling.inputs import Coupling, CouplingInputs
 from solvers.coupling.kinematics import (
     MeshMotion,
@@ -90,7 +90,7 @@ class Hessian(NamedTuple):
     yy: float
 
 
-@kernel
+@inner_kernel
 def _crossing(ahead: FloatArray, highest: float, psi: float) -> float:
     """Return the next rotation psi in Newton's method for the equation sum max(0, psi + w_i - w_max) = 1.
 
@@ -106,7 +106,7 @@ def _crossing(ahead: FloatArray, highest: float, psi: float) -> float:
     return (1.0 - total) / count
 
 
-@kernel
+@inner_kernel
 def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
     """Find the exact common rotation psi at which the teeth carry unit torque.
 
@@ -140,7 +140,7 @@ def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
     return psi
 
 
-@kernel
+@inner_kernel
 def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
     """Replace the lead w_i of each tooth by its interference u_i under unit torque, in place.
 
@@ -175,7 +175,7 @@ def centred_rows(ahead: FloatArray, unit: float, unit_force: float, rotation: Fl
             ahead[row, i] = unit_force * max(0.0, ahead[row, i])
 
 
-@kernel
+@inner_kernel
 def add_up(ahead: FloatArray, normal: FloatArray) -> tuple[Motion, Hessian]:
     """Compute the torque and the lateral force of the loaded teeth, and the second derivatives of the energy."""
     normal_x, normal_y = normal
@@ -197,7 +197,7 @@ def add_up(ahead: FloatArray, normal: FloatArray) -> tuple[Motion, Hessian]:
     return Motion(torque, force_x, force_y), Hessian(loaded, x, y, xx, xy, yy)
 
 
-@kernel
+@inner_kernel
 def solve_loaded(hessian: Hessian, right: Motion) -> tuple[Motion, float, float]:
     """Solve `hessian` times motion = `right` in the directions in which the loaded teeth have stiffness.
 
@@ -226,7 +226,7 @@ def solve_loaded(hessian: Hessian, right: Motion) -> tuple[Motion, float, float]
     return Motion(rotation, shift_x, shift_y), free_x, free_y
 
 
-@kernel
+@inner_kernel
 def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
     """Return the Newton step that adds the `missing` forces, and the rate at which the energy falls along this step.
 
@@ -241,7 +241,7 @@ def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
     return step, missing.rotation * step.rotation + missing.x * step.x + missing.y * step.y
 
 
-@kernel
+@inner_kernel
 def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: float) -> tuple[float, float]:
     """Compute the first and the second derivative of the energy along a step, at one length of the step.
 
@@ -257,7 +257,7 @@ def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: flo
     return first, second
 
 
-@kernel
+@inner_kernel
 def length_to_lowest(ahead: FloatArray, change: FloatArray, start: float) -> float:
     """Find the length of a step at which the energy is lowest.
 
@@ -283,7 +283,7 @@ def length_to_lowest(ahead: FloatArray, change: FloatArray, start: float) -> flo
     return length
 
 
-@kernel
+@inner_kernel
 def float_sleeve(
     interference: FloatArray, normal: FloatArray, force: FloatArray, places: Places, k: int, ahead: FloatArray
 ) -> tuple[int, Hessian]:

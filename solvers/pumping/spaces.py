@@ -139,7 +139,9 @@ def coarser_flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int, 
     parts = face_stretches(mesh.setup, slices)
     if mesh.setup.model.flow is Flow.POCKET_CHAIN:
         return _chain(mesh, space, pinion_speed, parts, STEPS // times)
-    return _gas(mesh, space, pinion_speed, [part.coarser(times) for part in parts], _angles(mesh, space)[::times])
+    return _gas(
+        mesh, space, pinion_speed, [part.coarser(times) for part in parts], _angles(mesh, space)[::times].copy()
+    )
 
 
 def _single_pocket(mesh: Mesh, space: Space, pinion_speed: float, table: StrokeTable) -> SpaceFlow:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solvers.arrays import BoolArray, FloatArray
-from solvers.compiled import kernel
+from solvers.compiled import inner_kernel, kernel
 from solvers.errors import InvalidInput
 from solvers.gears.pair import ContactPlane, PathOfContact
 from solvers.scuffing.modification import Gap, gap_at
@@ -133,7 +133,7 @@ def roll_positions(
     return RollPositions(phase[once], np.zeros(np.count_nonzero(once)), (first | last)[once])
 
 
-@kernel
+@inner_kernel
 def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, float]:
     """Compute the ends of a contact line.
 
@@ -191,13 +191,13 @@ def total_lengths(plane: ContactPlane, rolls: RollPositions) -> FloatArray:
     return _total_lengths(plane, rolls.phase, rolls.side)
 
 
-@kernel
+@inner_kernel
 def gap_on_line(form: Gap, plane: ContactPlane, line: float, y: float) -> float:
     """Return the gap Delta [m] on the contact line x = line - y tan beta_b."""
     return gap_at(form, line - y * plane.tan_base_helix, y)
 
 
-@kernel
+@inner_kernel
 def valley(form: Gap, plane: ContactPlane, line: float, low: float, high: float) -> float:
     """Find the y [m] at which the gap on a line is least, by golden section between y = `low` and y = `high`.
 
@@ -217,7 +217,7 @@ def valley(form: Gap, plane: ContactPlane, line: float, low: float, high: float)
     return 0.5 * (low + high)
 
 
-@kernel
+@inner_kernel
 def _edge(form: Gap, plane: ContactPlane, line: float, inside: float, outside: float, reach: float) -> float:
     """Find the y [m] of the end of contact on a line.
 
@@ -233,19 +233,19 @@ def _edge(form: Gap, plane: ContactPlane, line: float, inside: float, outside: f
     return inside
 
 
-@kernel
+@inner_kernel
 def _note(zones: FloatArray, count: int, low: float, high: float) -> int:
     if high <= low:
         return count
     if count == MOST_ZONES:
         low, _ = zones[count - 1]
-        zones[count - 1] = low, high
+        zones[count - 1, 0], zones[count - 1, 1] = low, high
         return count
-    zones[count] = low, high
+    zones[count, 0], zones[count, 1] = low, high
     return count + 1
 
 
-@kernel
+@inner_kernel
 def loaded_zones(
     form: Gap,
     plane: ContactPlane,

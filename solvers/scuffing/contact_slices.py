@@ -7,7 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.compiled import inlined_kernel, kernel
+from solvers.compiled import inlined_kernel, inner_kernel, kernel
 from solvers.gears.pair import ContactPlane, reduced_radius
 from solvers.scuffing.contact_lines import (
     COINCIDENT,
@@ -126,7 +126,7 @@ def _parts(
         if high <= low:
             continue
         if reach == np.inf:
-            zones[count] = low, high
+            zones[count, 0], zones[count, 1] = low, high
             added = 1
         else:
             pieces = ceil(slices * (high - low) / (last_y - first_y) - 1e-9)
@@ -140,7 +140,7 @@ def _parts(
     return count, length
 
 
-@kernel
+@inner_kernel
 def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, table: Slices) -> Cover:
     """Cut all contact lines at a roll position into slices, and write the slices to the table.
 
@@ -188,7 +188,7 @@ def _range(mesh: Mesh, line: float, zone: FloatArray, table: Slices, first: int,
     return least, most
 
 
-@kernel
+@inner_kernel
 def _beside(
     mesh: Mesh, line: float, table: Slices, end: tuple[float, float], at_end: float, middle: int, following: int
 ) -> float:
@@ -248,7 +248,7 @@ class Peak:
     y: float
 
 
-@kernel
+@inner_kernel
 def empty_survey(mesh: Mesh, positions: int) -> Survey:
     """Return a survey of zeros."""
     return Survey(
@@ -263,12 +263,12 @@ def empty_survey(mesh: Mesh, positions: int) -> Survey:
     )
 
 
-@kernel
+@inner_kernel
 def _put(peaks: Peaks, i: int, value: float, x: float, y: float) -> None:
     peaks.value[i], peaks.x[i], peaks.y[i] = value, x, y
 
 
-@kernel
+@inner_kernel
 def _note_peaks(mesh: Mesh, survey: Survey, i: int, load: float, at: tuple[float, float]) -> None:
     x, y = at
     if load > survey.peak_load.value[i] * (1.0 + EQUAL):
@@ -280,7 +280,7 @@ def _note_peaks(mesh: Mesh, survey: Survey, i: int, load: float, at: tuple[float
         _put(survey.peak_pressure, i, load / radius, x, y)
 
 
-@kernel
+@inner_kernel
 def survey_slices(mesh: Mesh, table: Slices, count: int, error: float, survey: Survey, i: int) -> None:
     """Add the slices of roll position i to the survey; `error` is the transmission error TE [m] at this position."""
     arm = mesh.plane.pitch_point - mesh.plane.start
@@ -293,7 +293,7 @@ def survey_slices(mesh: Mesh, table: Slices, count: int, error: float, survey: S
             _note_peaks(mesh, survey, i, load, (table.x[n], table.y[n]))
 
 
-@kernel
+@inner_kernel
 def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Survey, i: int) -> None:
     """Update the largest load and pressure of roll position i with the loads at ends of lines and at kinks of the gap.
 

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from solvers.arrays import FloatArray
-from solvers.compiled import kernel
+from solvers.arrays import FloatArray, copy
+from solvers.compiled import inner_kernel, kernel
 from solvers.errors import NoSolution
 from solvers.scuffing.contact_lines import RollPositions
 from solvers.scuffing.contact_slices import Mesh, Slices, gather, slice_table
@@ -112,9 +112,9 @@ def _respond(
     for i in range(phase.size):
         count = gather(mesh, phase[i], side[i], slices, np.inf, table).slices
         near = i if error[i] == error[i] else max(i - 1, 0)
-        table.log_load[:count] = log_load[near, :count]
+        copy(log_load[near], table.log_load, count)
         error[i], residual, _ = solve_near(table, count, mesh.compliance.logarithmic, force, error[near])
-        log_load[i, :count] = table.log_load[:count]
+        copy(table.log_load, log_load[i], count)
         worst = max(worst, residual)
         springs[:] = 0.0
         _spread(mesh, table, count, share[i], spread, derivative, springs)
@@ -126,7 +126,7 @@ def _respond(
     return worst
 
 
-@kernel
+@inner_kernel
 def _spread(
     mesh: Mesh,
     table: Slices,

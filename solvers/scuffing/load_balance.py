@@ -20,8 +20,8 @@ from typing import Any
 
 import numpy as np
 
-from solvers.arrays import FloatArray, IntArray
-from solvers.compiled import kernel
+from solvers.arrays import FloatArray, IntArray, copy
+from solvers.compiled import inner_kernel, kernel
 from solvers.errors import NoSolution
 from solvers.gears.pair import ContactPlane
 from solvers.scuffing.contact_lines import RollPositions
@@ -58,7 +58,7 @@ Start = tuple[FloatArray, FloatArray]
 """TE [m] at every roll position, and ln w (w in N/m) of every slice at every roll position."""
 
 
-@kernel
+@inner_kernel
 def _secant_start(table: Slices, count: int, logarithmic: float, force: float) -> float:
     """Compute a start value of TE [m] from a balance with linear compliances.
 
@@ -90,7 +90,7 @@ def _secant_start(table: Slices, count: int, logarithmic: float, force: float) -
     return error
 
 
-@kernel
+@inner_kernel
 def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple[float, float, float, float]:
     """Improve the load of every slice by one iteration step, at the transmission error `error` [m].
 
@@ -115,7 +115,7 @@ def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple
     return force, slope, unsettled, nearest
 
 
-@kernel
+@inner_kernel
 def _follow(table: Slices, count: int, change: float) -> float:
     """Change the load of every slice by its derivative times `change`; return the force of all slices [N].
 
@@ -128,7 +128,7 @@ def _follow(table: Slices, count: int, change: float) -> float:
     return force
 
 
-@kernel
+@inner_kernel
 def newton(table: Slices, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
     """Solve the balance of one roll position by Newton's method, from a start value of TE.
 
@@ -177,13 +177,13 @@ def newton(table: Slices, count: int, logarithmic: float, force: float, error: f
     return error, residual, steps
 
 
-@kernel
+@inner_kernel
 def solve_position(table: Slices, count: int, logarithmic: float, force: float) -> tuple[float, float, float]:
     """Solve the balance of one roll position without start values; return the values that `newton` returns."""
     return newton(table, count, logarithmic, force, _secant_start(table, count, logarithmic, force))
 
 
-@kernel
+@inner_kernel
 def solve_near(table: Slices, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
     """Solve the balance of one roll position from the start values of a similar position.
 
@@ -327,7 +327,7 @@ def _merged(balance: LoadBalance, added: LoadBalance, places: IntArray) -> LoadB
     )
 
 
-@kernel
+@inner_kernel
 def _settle(
     mesh: Mesh, at: tuple[float, float], slices: int, force: float, least: float, error: float, table: Slices
 ) -> tuple[Cover, float, float, float]:
@@ -370,7 +370,7 @@ def _balance(
         if force > 0.0:
             near = start[i]
             if not np.isnan(near):
-                table.log_load[: cover.slices] = log_load[i, : cover.slices]
+                copy(log_load[i], table.log_load, cover.slices)
             elif i > 1:  # the table still contains ln w of the previous position
                 near = 2.0 * error[i - 1] - error[i - 2]
             error[i], residual[i], steps[i] = solve_near(table, cover.slices, mesh.compliance.logarithmic, force, near)
@@ -383,7 +383,7 @@ def _balance(
     return error, unloaded, residual, steps, survey
 
 
-@kernel
+@inner_kernel
 def error_at(
     plane: ContactPlane, phase: FloatArray, error: FloatArray, x: float, y: float, index: int
 ) -> tuple[float, int]:

@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.compiled import kernel
+from solvers.compiled import inner_kernel, kernel
 from solvers.errors import InvalidInput
 from solvers.gears.pair import PathOfContact
 from solvers.scuffing.inputs import LeadCurve, Modifications
@@ -15,7 +15,7 @@ LEAD_POINTS = 401  # one point per 0.25 % of the face; between these points lead
 MOST_EDGES = 6  # largest number of edges: two ends of the line, two end reliefs, two reliefs along the path
 
 
-@kernel
+@inner_kernel
 def place_of(x: float, points_per_metre: float, points: int) -> tuple[int, float]:
     """Return the number of the table point before x, and the distance from this point to x in steps.
 
@@ -26,7 +26,7 @@ def place_of(x: float, points_per_metre: float, points: int) -> tuple[int, float
     return index, position - index
 
 
-@kernel
+@inner_kernel
 def interpolated(table: FloatArray, place: tuple[int, float]) -> float:
     """Interpolate linearly in a table of values at equidistant points; `place` is a result of `place_of`."""
     index, share = place
@@ -147,7 +147,7 @@ def misalignment_slope(in_plane: float, out_of_plane: float, working_pressure_an
     return in_plane * sin(working_pressure_angle) + out_of_plane * cos(working_pressure_angle)
 
 
-@kernel
+@inner_kernel
 def _relief(amplitude: float, length: float, distance: float, exponent: float) -> float:
     """Return amplitude (1 - distance / length)^exponent; 0 if the distance exceeds the length."""
     if amplitude == 0.0 or distance >= length:
@@ -156,7 +156,7 @@ def _relief(amplitude: float, length: float, distance: float, exponent: float) -
     return amplitude * rest if exponent == 1.0 else amplitude * rest**exponent
 
 
-@kernel
+@inner_kernel
 def profile_gap(form: Gap, x: float) -> float:
     """Compute the part of the gap that depends on the distance x along the path.
 
@@ -182,7 +182,7 @@ def profile_gap(form: Gap, x: float) -> float:
     return value + _relief(form.root_relief, form.root_relief_length, x, form.exponent)
 
 
-@kernel
+@inner_kernel
 def lead_gap(form: Gap, y: float) -> float:
     """Compute the part of the gap that depends on the distance y along the face.
 
@@ -208,7 +208,7 @@ def lead_gap(form: Gap, y: float) -> float:
     return value + _relief(form.end_relief, form.end_relief_length, min(y, form.face_width - y), form.exponent)
 
 
-@kernel
+@inner_kernel
 def lead_gaps(form: Gap, y: FloatArray) -> FloatArray:
     """Return the part of the gap Delta [m] that depends on y, for several values of y.
 
@@ -220,7 +220,7 @@ def lead_gaps(form: Gap, y: FloatArray) -> FloatArray:
     return gaps
 
 
-@kernel
+@inner_kernel
 def gap_at(form: Gap, x: float, y: float) -> float:
     """Return the gap Delta [m] at the distances x [m] from A and y [m] from the end that meshes first.
 
@@ -229,7 +229,7 @@ def gap_at(form: Gap, x: float, y: float) -> float:
     return profile_gap(form, x) + lead_gap(form, y)
 
 
-@kernel
+@inner_kernel
 def _insert(edges: FloatArray, count: int, y: float) -> int:
     """Insert y into the first `count` values of `edges`, which are in ascending order. Return the new number of edges.
 
@@ -245,7 +245,7 @@ def _insert(edges: FloatArray, count: int, y: float) -> int:
     return count + 1
 
 
-@kernel
+@inner_kernel
 def smooth_parts(form: Gap, line: float, tan_base_helix: float, ends: tuple[float, float], edges: FloatArray) -> int:
     """Divide a contact line into parts on which the gap is smooth.
 

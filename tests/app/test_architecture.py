@@ -12,7 +12,7 @@ import pytest
 pytestmark = pytest.mark.ci
 
 ROOT = Path(__file__).parents[2]
-ALLOWED = {"solvers", "numpy", "scipy", "numba", "threadpoolctl"}
+ALLOWED = {"solvers", "numpy", "scipy", "numba"}
 # what knows of files, or of the standard error
 KEEPS_FILES = {f"solvers/{name}.py" for name in ("kernel_cache", "digest", "compiled", "drive_train/film/table")}
 MODULES = [path for package in ("app", "solvers") for path in (ROOT / package).rglob("*.py")]

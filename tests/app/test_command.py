@@ -3,6 +3,7 @@
 import io
 import json
 import os
+import resource
 import socket
 import subprocess
 import sys
@@ -11,7 +12,7 @@ from typing import Any, TextIO
 
 import pytest
 
-from app.command import main
+from app.command import main, warn_of_few_descriptors
 from app.errors import InvalidBody, Unprocessable
 from app.evaluate import answer
 from tests.support.server import ROOT
@@ -154,3 +155,14 @@ def test_fields_leads_from_a_name_in_json_to_its_attribute(
     (found,) = (dict(zip(head, row, strict=True)) for row in rows if row[1] == "limits.allowable_misalignment_deg")
     assert found["solver"] == "solvers.coupling.results.Limits.allowable_misalignment"
     assert (found["section"], found["unit"]) == ("Answers", "°")
+
+
+@pytest.mark.parametrize(("limit", "line"), [(31, "only 31 files may be open at once, fewer than 32"), (32, "")])
+def test_too_few_descriptors_are_told(
+    limit: int, line: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(resource, "getrlimit", lambda _: (limit, 4096))
+    warn_of_few_descriptors()
+    said = capsys.readouterr().err
+    assert line in said
+    assert bool(said) == bool(line)

@@ -4,6 +4,7 @@ import http.client
 import json
 import time
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import ExitStack, suppress
 from statistics import median
 from urllib.parse import urlsplit
@@ -19,12 +20,14 @@ from tests.support.server import (
     faulty_server,
     meanwhile,
     memory_mb,
+    wait_for_metric,
     wait_until,
 )
 
 pytestmark = pytest.mark.service
 
 FLOOD = 30 * 2**20
+RUNNING = "tribodrive_calculations"
 PIECE = b"x" * 65536
 JSON = {"Content-Type": "application/json"}
 
@@ -55,6 +58,28 @@ OPENINGS = {
     "headers without end": (b"GET /healthz HTTP/1.1\r\nHost: x\r\n", b"X-Padding: 1234567890\r\n" * 3000),
     "an address without end": (b"GET /", PIECE),
 }
+
+
+UPLOADS, UPLOAD_MB = 24, 19
+
+
+@pytest.mark.ci
+def test_uploads_that_wait_take_no_memory() -> None:
+    """Twenty-four files of 19 MB wait for the only worker: they are on disk, and not once in memory."""
+    body = b"<model><!--" + b"x" * (UPLOAD_MB * 10**6) + b"--></model>"
+    headers = {"Content-Type": "application/xml"}
+    with faulty_server(workers=1, queue=UPLOADS) as (process, address), ThreadPoolExecutor(UPLOADS + 1) as clients:
+        before = memory_mb(process.pid)
+        busy = clients.submit(httpx.post, f"{address}/sleep/20", timeout=60)
+        wait_for_metric(address, RUNNING, 1)
+        posts = [
+            clients.submit(httpx.post, f"{address}/v1/rexs", content=body, headers=headers, timeout=60)
+            for _ in range(UPLOADS)
+        ]
+        wait_for_metric(address, RUNNING, UPLOADS + 1)
+        assert memory_mb(process.pid) < before + 3 * UPLOAD_MB
+        assert busy.result().status_code == 200
+        assert {post.result().status_code for post in posts} == {422}
 
 
 @pytest.mark.parametrize("kind", OPENINGS)

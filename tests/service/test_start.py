@@ -204,9 +204,13 @@ def whole(tmp_path_factory: pytest.TempPathFactory) -> bytes:
 
 def machine_code(cache: Path) -> list[Path]:
     """Return the files with the machine code of `tooth_loads`, a module of the coupling."""
-    files = sorted(cache.glob("*/tooth_loads.*.nbc"))
-    assert len(files) > 5
+    files = machine_code_in(cache)
+    assert files
     return files
+
+
+def machine_code_in(cache: Path) -> list[Path]:
+    return sorted(cache.glob("*/tooth_loads.*.nbc"))
 
 
 def swap(files: list[Path]) -> None:
@@ -244,33 +248,32 @@ def test_a_folder_that_cannot_be_written_costs_time_alone(tmp_path: Path, whole:
 
 
 READ_ONLY = """
-mount --bind CACHE CACHE
-findmnt -rno TARGET | grep -v '^CACHE$' | while read -r place; do mount -o remount,bind,ro "$place"; done 2>/dev/null
+for place in WRITABLE; do mount --bind "$place" "$place"; done
+findmnt -rno TARGET | while read -r place; do
+    case " WRITABLE " in *" $place "*) ;; *) mount -o remount,bind,ro "$place" ;; esac
+done 2>/dev/null
 exec "$@"
 """
 
 
-@pytest.mark.skipif(os.getuid() != 0, reason="root alone can remount folders")
+def on_read_only_disks(*writable: Path) -> list[str]:
+    """Return the start command of a service that has no home folder and can write to the given folders only."""
+    script = READ_ONLY.replace("WRITABLE", " ".join(map(str, writable)))
+    start = ["env", "HOME=/nonexistent", sys.executable, "-m", "app"]
+    return ["unshare", "--mount", "sh", "-c", script, "sh", *start]
+
+
+as_root = pytest.mark.skipif(os.getuid() != 0, reason="root alone can remount folders")
+
+
+@as_root
 @pytest.mark.ci
 def test_needs_nothing_to_be_writable_but_the_cache(tmp_path: Path) -> None:
     """Only the cache can be written: there is no home folder, and the temporary folder is read-only."""
     copy_of_cache(tmp_path)
-    writable = READ_ONLY.replace("CACHE", str(tmp_path))
-    command = [
-        "unshare",
-        "--mount",
-        "sh",
-        "-c",
-        writable,
-        "sh",
-        "env",
-        "HOME=/nonexistent",
-        sys.executable,
-        "-m",
-        "app",
-    ]
     log = tmp_path / "log"
     variables = {"NUMBA_CACHE_DIR": str(tmp_path)}
+    command = on_read_only_disks(tmp_path)
     with started_server(command, log=log, workers=2, environment=variables) as (process, address):
         wait_until_warm(process, address)
         figure = f"{COUPLING.endpoint}/figures/losses.svg"
@@ -278,6 +281,59 @@ def test_needs_nothing_to_be_writable_but_the_cache(tmp_path: Path) -> None:
     text = log.read_text("utf-8")
     assert "everything is warm" in text
     assert not re.search("not kept|died|Traceback", text)
+
+
+@as_root
+@pytest.mark.ci
+def test_kernels_of_a_cache_that_cannot_be_written_are_used(tmp_path: Path) -> None:
+    """The kernels of a read-only folder are used and completed in the folder for temporary files."""
+    cache, temporary = tmp_path / "cache", tmp_path / "temporary"
+    folder = copy_of_cache(cache)
+    temporary.mkdir()
+    for file in machine_code(folder):
+        file.unlink()
+    variables = {"NUMBA_CACHE_DIR": str(cache), "TMPDIR": str(temporary)}
+    log, command = temporary / "log", on_read_only_disks(temporary)
+    with started_server(command, log=log, workers=1, deadline_s=2, environment=variables) as (process, address):
+        wait_until_warm(process, address)
+        assert httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=60).status_code == 200
+        assert httpx.post(address + LINE_CONTACT.endpoint, json=LINE_CONTACT.request, timeout=60).status_code == 200
+    assert "every worker compiles" not in log.read_text("utf-8")
+    assert not machine_code_in(folder)
+    (completed,) = temporary.glob(f"tribodrive-*/{folder.name}")
+    assert machine_code(completed)
+
+
+@as_root
+@pytest.mark.ci
+def test_a_service_that_cannot_keep_kernels_is_not_ready_before_its_worker(tmp_path: Path) -> None:
+    """Neither the cache nor the folder for temporary files can be written, so the worker compiles at its start."""
+    cache = tmp_path / "cache"
+    cache.mkdir()
+    variables = {"NUMBA_CACHE_DIR": str(cache)}
+    (tmp_path / "log").touch()
+    log, command = tmp_path / "log", on_read_only_disks()
+    with started_server(command, log=log, workers=1, environment=variables) as (process, address):
+        wait_until_open(address)
+        wait_until(lambda: "every worker compiles all of them at its start" in log.read_text("utf-8"))
+        until = time.monotonic() + 3.0
+        while time.monotonic() < until:
+            assert httpx.get(f"{address}/readyz", timeout=20).status_code == 503
+            time.sleep(0.2)
+        assert httpx.get(f"{address}/healthz", timeout=20).status_code == 200
+        process.send_signal(signal.SIGINT)
+        process.wait(PATIENCE_S)
+
+
+@as_root
+def test_a_service_that_cannot_keep_kernels_answers_once_its_worker_has_compiled(tmp_path: Path) -> None:
+    """Compilation counts against no deadline, so thermal scuffing is answered too."""
+    thermal = examples()["xue-pair-1-thermal"]
+    variables = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
+    command = on_read_only_disks()
+    with started_server(command, workers=1, deadline_s=20, environment=variables) as (process, address):
+        wait_until_warm(process, address)
+        assert httpx.post(address + thermal.endpoint, json=thermal.request, timeout=60).status_code == 200
 
 
 SERVERS = {

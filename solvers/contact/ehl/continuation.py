@@ -11,7 +11,6 @@ from typing import Literal
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.blas_threads import one_blas_thread
 from solvers.contact.ehl.grid import Grid, grid_for
 from solvers.contact.ehl.newton import solve_coupled, solve_isothermal
 from solvers.contact.ehl.problem import Problem
@@ -180,8 +179,7 @@ def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
     isothermal = problem._replace(inlet=resolution.entry_temperature)
     final = not resolution.thermal and resolution.nodes <= COARSEST
     tolerance = TIGHT[0] * 1e-2 if final else LOOSE[0]
-    with one_blas_thread():
-        converged = bool(solve_isothermal(isothermal, grid, state, work, steps, tolerance))
+    converged = bool(solve_isothermal(isothermal, grid, state, work, steps, tolerance))
     budget.charge(resolution, grid.x.size, int(state.history[0].iterations))
     if resolution.thermal:
         march_temperatures(problem, grid, state, work)
@@ -245,8 +243,7 @@ def polish(
     if resolution.thermal:
         converged = bool(solve_coupled(problem, grid, state, work, steps, tolerances[0], tolerances[1]))
     else:
-        with one_blas_thread():
-            converged = bool(solve_isothermal(problem, grid, state, work, steps, tolerances[0] * 1e-2))
+        converged = bool(solve_isothermal(problem, grid, state, work, steps, tolerances[0] * 1e-2))
     budget.charge(resolution, grid.x.size, int(state.history[0].iterations))
     stage: Stage = "coupling" if resolution.thermal else "isothermal"
     return Attempt(grid, state, work, converged=converged, stage=stage)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solvers.arrays import FloatArray, RecordArray, floats, records
-from solvers.compiled import inlined_kernel, kernel
+from solvers.compiled import inlined_kernel, inner_kernel
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.rheology import mid_film_stress, shear_rates
 from solvers.contact.ehl.shear import Film, stress_response, viscosities
@@ -39,7 +39,7 @@ def flow_coefficients(nodes: int) -> FlowCoefficients:
     return FlowCoefficients(records(nodes, COEFFICIENT), records(nodes, COEFFICIENT))
 
 
-@kernel
+@inner_kernel
 def evaluate_columns(
     problem: Problem,
     temperature: FloatArray,
@@ -128,7 +128,7 @@ def flow(problem: Problem, i: int, h: float, film: Film, coefficients: FlowCoeff
     coefficients.b[i].value = u1 * moments.density + drag * moments.n0
 
 
-@kernel
+@inner_kernel
 def linearise_columns(
     problem: Problem,
     start: int,

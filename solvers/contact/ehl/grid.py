@@ -7,19 +7,19 @@ from typing import NamedTuple
 import numpy as np
 
 from solvers.arrays import FloatArray, frozen
-from solvers.compiled import kernel
+from solvers.compiled import inner_kernel, kernel
 
 SHORTEST_INLET = 4.0  # least distance from the inlet to the centre of the contact, in half widths, chosen
 CLEARANCE = 40.0  # ratio of the undeformed gap at the inlet to the central film thickness
 
 
-@kernel
+@inner_kernel
 def _log_integral(t: float) -> float:
     """Return the antiderivative of ln|t|."""
     return t * np.log(abs(t)) - t if t != 0.0 else 0.0
 
 
-@kernel
+@inner_kernel
 def _log_moment(t: float) -> float:
     """Return the antiderivative of t ln|t|."""
     return 0.5 * t * t * np.log(abs(t)) - 0.25 * t * t if t != 0.0 else 0.0

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solvers.arrays import FloatArray, RecordArray, floats, records
-from solvers.compiled import inlined_kernel, kernel
+from solvers.compiled import inlined_kernel, inner_kernel
 from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.linear_algebra import row_product
 from solvers.contact.ehl.problem import Problem
@@ -115,7 +115,7 @@ def heat_arrays(nodes: int, film_nodes: int) -> Heat:
     )
 
 
-@kernel
+@inner_kernel
 def face_edges(stream: FloatArray, edges: FloatArray) -> None:
     """Compute the stream function at the edges of the cells (n, k + 1) from the stream function at the nodes (n, k).
 
@@ -159,7 +159,7 @@ def surface_history(problem: Problem, i: int, surface_matrix: FloatArray, surfac
     surfaces.walls[i].gain_2 = problem.surface_heating_2 * surface_matrix[i, i]
 
 
-@kernel
+@inner_kernel
 def balance_columns(
     problem: Problem,
     grid: Grid,
@@ -283,7 +283,7 @@ def column_residual(i: int, temperature: FloatArray, g: float, h: float, film: F
     heat.generated[i], heat.compression[i] = sheared, compressed
 
 
-@kernel
+@inner_kernel
 def linearise_balances(
     problem: Problem,
     temperature: FloatArray,
@@ -373,7 +373,7 @@ def _scale_walls(i: int, inertia: float, heat: Heat) -> None:
         responses.by_h[i, k] *= gain
 
 
-@kernel
+@inner_kernel
 def factor_columns(start: int, stop: int, film: Film, heat: Heat) -> None:
     """Factor the systems of the columns `start` to `stop` - 1, and solve every system for its four right-hand sides.
 

@@ -7,12 +7,12 @@ take the indices of rows instead of views of rows, because the creation of a vie
 import numpy as np
 
 from solvers.arrays import FloatArray, IntArray
-from solvers.compiled import inlined_kernel, kernel
+from solvers.compiled import inlined_kernel, inner_kernel
 
 PANEL = 8  # number of columns that are eliminated together, chosen for speed
 
 
-@kernel
+@inner_kernel
 def dot(a: FloatArray, b: FloatArray) -> float:
     """Return the scalar product of two vectors (n,)."""
     total = 0.0
@@ -21,7 +21,7 @@ def dot(a: FloatArray, b: FloatArray) -> float:
     return total
 
 
-@kernel
+@inner_kernel
 def add_scaled(factor: float, x: FloatArray, y: FloatArray) -> None:
     """Add a multiple of x to y, in place."""
     for j in range(x.size):
@@ -82,7 +82,7 @@ def _subtract_panel(matrix: FloatArray, i: int, start: int, stop: int) -> None:
         matrix[i, j] -= total
 
 
-@kernel
+@inner_kernel
 def factor(matrix: FloatArray, pivots: IntArray) -> None:
     """Replace a matrix (n, n) by its LU factors, computed in panels of eight columns with row pivoting.
 
@@ -101,7 +101,7 @@ def factor(matrix: FloatArray, pivots: IntArray) -> None:
             _subtract_panel(matrix, i, start, stop)
 
 
-@kernel
+@inner_kernel
 def substitute(factors: FloatArray, pivots: IntArray, vector: FloatArray) -> None:
     """Replace the right-hand side `vector` (n,) by the solution of the system that `factor` has factored."""
     n = pivots.size
@@ -114,7 +114,7 @@ def substitute(factors: FloatArray, pivots: IntArray, vector: FloatArray) -> Non
         vector[i] = (vector[i] - row_product(factors, i, i + 1, n, vector)) / factors[i, i]
 
 
-@kernel
+@inner_kernel
 def multiply(matrix: FloatArray, vector: FloatArray, product: FloatArray) -> None:
     """Multiply a matrix (n, n) by a vector (n,) and store the result in `product` (n,)."""
     n = vector.size
@@ -122,20 +122,7 @@ def multiply(matrix: FloatArray, vector: FloatArray, product: FloatArray) -> Non
         product[i] = row_product(matrix, i, 0, n, vector)
 
 
-@kernel
-def solve_step(matrix: FloatArray, residual: FloatArray, step: FloatArray) -> bool:
-    """Compute Newton's step (n,) for a residual (n,); return False if the system has no finite solution.
-
-    The Python code that calls this kernel limits LAPACK to one thread (`blas_threads`).
-    """
-    try:
-        step[:] = np.linalg.solve(matrix, -residual)
-    except Exception:  # noqa: BLE001  numba cannot catch a narrower exception
-        return False
-    return bool(np.all(np.isfinite(step)))
-
-
-@kernel
+@inner_kernel
 def extend_basis(basis: FloatArray, hessenberg: FloatArray, rotations: FloatArray, rhs: FloatArray, j: int) -> float:
     """Orthogonalise basis[j + 1] to all earlier basis vectors, and return the norm of the residual of GMRES.
 
@@ -163,7 +150,7 @@ def extend_basis(basis: FloatArray, hessenberg: FloatArray, rotations: FloatArra
     return float(abs(rhs[j + 1]))
 
 
-@kernel
+@inner_kernel
 def combine_basis(basis: FloatArray, hessenberg: FloatArray, rhs: FloatArray, count: int, solution: FloatArray) -> None:
     """Add the least-squares combination of the first `count` basis vectors to `solution` (n,)."""
     for j in range(count - 1, -1, -1):

@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from solvers.arrays import BoolArray, FloatArray, IntArray
-from solvers.compiled import inlined_kernel, kernel
+from solvers.arrays import BoolArray, FloatArray, IntArray, copy
+from solvers.compiled import inlined_kernel, inner_kernel, kernel
 from solvers.contact.ehl.flow import FlowCoefficients
 from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.heat import factor_columns
-from solvers.contact.ehl.linear_algebra import combine_basis, dot, extend_basis, factor, solve_step, substitute
+from solvers.contact.ehl.linear_algebra import combine_basis, dot, extend_basis, factor, substitute
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.reynolds import (
     PATIENCE,
@@ -82,7 +82,7 @@ def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coeffic
     return tau_m
 
 
-@kernel
+@inner_kernel
 def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) -> None:
     """Compute film thickness, stress and flow of all columns at the inlet temperature.
 
@@ -113,6 +113,7 @@ def solve_isothermal(
     """
     n = grid.x.size
     jacobian, residual, step = np.empty((n + 1, n + 1)), np.empty(n + 1), np.empty(n + 1)
+    pivots = np.empty(n + 1, np.int64)
     for iteration in range(max_iterations):
         state.history[0].iterations += 1.0
         evaluate_isothermal(problem, grid, state, work)
@@ -121,7 +122,10 @@ def solve_isothermal(
         changed = release_cavitated(work.faces, state.cavitated, rupture_tolerance)
         balance_of_mass(grid, state.pressure, state.cavitated, work.faces, residual)
         assemble_jacobian(grid, state.cavitated, work.faces, jacobian)
-        if not solve_step(jacobian, residual, step):
+        factor(jacobian, pivots)
+        copy(-residual, step, n + 1)
+        substitute(jacobian, pivots, step)
+        if not np.all(np.isfinite(step)):
             return False
         largest = np.abs(step[:n]).max()
         state.history[0].pressure_change = largest
@@ -140,7 +144,7 @@ def solve_isothermal(
     return False
 
 
-@kernel
+@inner_kernel
 def include_temperature(work: Work) -> None:
     """Add the effect of the temperatures to the derivatives of ln A and B by p, G and h.
 
@@ -168,7 +172,7 @@ def include_temperature(work: Work) -> None:
         b[i].by_p, b[i].by_g, b[i].by_h = b_by_p, b_by_g, b_by_h
 
 
-@kernel
+@inner_kernel
 def add_temperature_changes(
     work: Work, cavitated: BoolArray, step: FloatArray, given: FloatArray, residual: FloatArray
 ) -> None:
@@ -190,7 +194,7 @@ def add_temperature_changes(
     add_flux_changes(work.faces, cavitated, log_a, b, residual)
 
 
-@kernel
+@inner_kernel
 def pressure_responses(
     problem: Problem, grid: Grid, work: Work, cavitated: BoolArray, step: FloatArray, given: FloatArray
 ) -> None:
@@ -208,7 +212,7 @@ def pressure_responses(
             given[i, k] = responses.by_p[i, k] * dp + responses.by_g[i, k] * dg + responses.by_h[i, k] * dh
 
 
-@kernel
+@inner_kernel
 def transport_response(
     problem: Problem,
     grid: Grid,
@@ -234,7 +238,7 @@ def transport_response(
     substitute(factors, pivots, change)
 
 
-@kernel
+@inner_kernel
 def newton_step(
     problem: Problem,
     grid: Grid,
@@ -256,7 +260,7 @@ def newton_step(
     given, change = np.zeros((n, nodes)), np.zeros(n + 1)
     temperature_step(problem, grid, work.film, work.heat, given, 1.0, step_t)
     add_temperature_changes(work, cavitated, step_t, given, residual)
-    step[:] = -residual
+    copy(-residual, step, n + 1)
     substitute(factors, pivots, step)
     norm = np.sqrt(dot(step, step))
     if not (np.isfinite(norm) and norm > 0.0):
@@ -268,10 +272,11 @@ def newton_step(
     else:
         basis, hessenberg = np.zeros((KRYLOV + 1, n + 1)), np.zeros((KRYLOV, KRYLOV))
         rotations, rhs = np.zeros((KRYLOV, 2)), np.zeros(KRYLOV + 1)
-        basis[0], rhs[0], count = -change / rest, rest, 0
+        copy(-change / rest, basis[0], n + 1)
+        rhs[0], count = rest, 0
         while count < KRYLOV and rest > KRYLOV_TOLERANCE * norm:
             transport_response(problem, grid, work, cavitated, factors, pivots, basis[count], given, step_t, change)
-            basis[count + 1] = basis[count] + change
+            copy(basis[count] + change, basis[count + 1], n + 1)
             rest = extend_basis(basis, hessenberg, rotations, rhs, count)
             count += 1
         combine_basis(basis, hessenberg, rhs, count, step)
@@ -279,7 +284,7 @@ def newton_step(
     temperature_step(problem, grid, work.film, work.heat, given, 1.0, step_t)
 
 
-@kernel
+@inner_kernel
 def factor_jacobian(
     problem: Problem, grid: Grid, state: State, work: Work, jacobian: FloatArray, pivots: IntArray
 ) -> None:
@@ -290,7 +295,7 @@ def factor_jacobian(
     factor(jacobian, pivots)
 
 
-@kernel
+@inner_kernel
 def take_step(grid: Grid, state: State, step: FloatArray, step_t: FloatArray, scale: float) -> tuple[float, bool]:
     """Change all unknowns by `scale` times the step.
 

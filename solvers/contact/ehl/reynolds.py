@@ -4,8 +4,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solvers.arrays import BoolArray, FloatArray
-from solvers.compiled import inlined_kernel, kernel
+from solvers.arrays import BoolArray, FloatArray, copy
+from solvers.compiled import inlined_kernel, inner_kernel
 from solvers.contact.ehl.flow import FlowCoefficients
 from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.linear_algebra import multiply
@@ -41,7 +41,7 @@ def face_arrays(nodes: int) -> FaceFluxes:
     return FaceFluxes(flux, conductance, by_b, by_log_a, np.zeros((nodes, 5)), np.zeros((nodes, 3)))
 
 
-@kernel
+@inner_kernel
 def film_shape(grid: Grid, pressure: FloatArray, separation: float, film: FloatArray) -> None:
     """Compute the film thickness H = H0 + X^2/2 + K P at all nodes, in place.
 
@@ -65,7 +65,7 @@ def film_shape(grid: Grid, pressure: FloatArray, separation: float, film: FloatA
         film[i] += separation + 0.5 * grid.x[i] ** 2
 
 
-@kernel
+@inner_kernel
 def gradient_stencil(x: FloatArray, i: int, cavitated: BoolArray) -> tuple[int, int, float]:
     """Return the two nodes whose pressure difference gives dP/dX at node i, and the factor of this difference."""
     n = x.size
@@ -77,7 +77,7 @@ def gradient_stencil(x: FloatArray, i: int, cavitated: BoolArray) -> tuple[int, 
     return left, right, 1.0 / (x[right] - x[left])
 
 
-@kernel
+@inner_kernel
 def pressure_gradients(x: FloatArray, pressure: FloatArray, cavitated: BoolArray, gradient: FloatArray) -> None:
     """Compute dP/dX at all nodes, in place.
 
@@ -104,7 +104,7 @@ def pressure_gradients(x: FloatArray, pressure: FloatArray, cavitated: BoolArray
         gradient[i] = factor * (pressure[right] - pressure[left])
 
 
-@kernel
+@inner_kernel
 def _log_mean(a: float, b: float) -> tuple[float, float]:
     """Return the logarithmic mean of e^a and e^b, and d(ln mean)/da.
 
@@ -121,7 +121,7 @@ def _log_mean(a: float, b: float) -> tuple[float, float]:
     return middle * (rise - fall) / (a - b), 0.5 + 0.5 * ((rise + fall) / (rise - fall) - 1.0 / half)
 
 
-@kernel
+@inner_kernel
 def mass_fluxes(
     problem: Problem,
     x: FloatArray,
@@ -169,7 +169,7 @@ def mass_fluxes(
         faces.flux[i] = faces.by_b[i, 0] * b[i].value + faces.by_b[i, 1] * b[upstream].value - poiseuille
 
 
-@kernel
+@inner_kernel
 def mass_flux_slopes(
     problem: Problem,
     grid: Grid,
@@ -237,7 +237,7 @@ def _upstream(x: FloatArray, i: int) -> tuple[int, float]:
     return i - 1, -0.5 * (x[i + 1] - x[i]) / (x[i] - x[i - 1])
 
 
-@kernel
+@inner_kernel
 def add_flux_changes(
     faces: FaceFluxes, cavitated: BoolArray, log_a: FloatArray, b: FloatArray, residual: FloatArray
 ) -> None:
@@ -255,7 +255,7 @@ def add_flux_changes(
         before = change
 
 
-@kernel
+@inner_kernel
 def balance_of_mass(
     grid: Grid, pressure: FloatArray, cavitated: BoolArray, faces: FaceFluxes, residual: FloatArray
 ) -> None:
@@ -289,7 +289,7 @@ def balance_of_mass(
         residual[n] += grid.weights[i] * pressure[i]
 
 
-@kernel
+@inner_kernel
 def assemble_jacobian(grid: Grid, cavitated: BoolArray, faces: FaceFluxes, jacobian: FloatArray) -> None:
     """Compute the derivatives of the residuals of `balance_of_mass` with respect to P_0..P_n-1 and H0."""
     n = grid.x.size
@@ -315,11 +315,12 @@ def assemble_jacobian(grid: Grid, cavitated: BoolArray, faces: FaceFluxes, jacob
             jacobian[i, k] += by_pressure[i, k - i + 2]
         for k in range(max(i - 3, 0), min(i + 2, n)):
             jacobian[i, k] -= by_pressure[i - 1, k - i + 3]
-    jacobian[n, :n] = grid.weights
+    for j in range(n):
+        jacobian[n, j] = grid.weights[j]
     jacobian[n, n] = 0.0
 
 
-@kernel
+@inner_kernel
 def release_cavitated(faces: FaceFluxes, cavitated: BoolArray, tolerance: float) -> bool:
     """Move nodes from the broken to the full film if more oil flows in than out. Return whether any node was moved.
 
@@ -334,7 +335,7 @@ def release_cavitated(faces: FaceFluxes, cavitated: BoolArray, tolerance: float)
     return changed
 
 
-@kernel
+@inner_kernel
 def apply_pressure_step(
     grid: Grid,
     pressure: FloatArray,
@@ -366,6 +367,6 @@ def apply_pressure_step(
         if grid.x[i] > 0.0 and pressure[i] + scale * step[i] < 0.0 and not cavitated[i]:
             cavitated[i] = True
             joined = True
-    pressure[:] = trial
+    copy(trial, pressure, n)
     separation[0] += scale * step[n]
     return scale, joined

@@ -17,7 +17,7 @@ from typing import get_args
 
 import numpy as np
 
-from solvers.compiled import inlined_kernel, kernel
+from solvers.compiled import inlined_kernel, inner_kernel
 from solvers.contact.ehl.inputs import Rheology
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.shear import Shear
@@ -36,7 +36,7 @@ def softened(problem: Problem, stress: float) -> Problem | None:
     return problem._replace(rheology=REE_EYRING, eyring_stress=stress)
 
 
-@kernel
+@inner_kernel
 def limited_gradient(problem: Problem, g: float) -> float:
     """Return G = h dp/dx, limited so that exp(G/(2 tau0)) does not overflow.
 

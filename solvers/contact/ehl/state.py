@@ -4,8 +4,8 @@ from typing import NamedTuple, cast
 
 import numpy as np
 
-from solvers.arrays import BoolArray, FloatArray, RecordArray, floats, records
-from solvers.compiled import kernel
+from solvers.arrays import BoolArray, FloatArray, RecordArray, copy, floats, records
+from solvers.compiled import inner_kernel
 from solvers.contact.ehl.flow import PLACE, FlowCoefficients, evaluate_columns, flow_coefficients, linearise_columns
 from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.heat import Heat, balance_columns, face_edges, heat_arrays, linearise_balances
@@ -70,7 +70,7 @@ def work_arrays(nodes: int, film_nodes: int) -> Work:
     )
 
 
-@kernel
+@inner_kernel
 def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> bool:
     """Compute film thickness, stress and flow of all columns; return whether a pressure gradient had to be limited."""
     film_shape(grid, state.pressure, state.separation[0], work.height)
@@ -87,7 +87,7 @@ def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> boo
     return limited
 
 
-@kernel
+@inner_kernel
 def fluid_fractions(problem: Problem, state: State, work: Work) -> float:
     """Compute the fraction of the gap that oil fills at each node, in place.
 
@@ -117,7 +117,7 @@ def fluid_fractions(problem: Problem, state: State, work: Work) -> float:
     return float(flux)
 
 
-@kernel
+@inner_kernel
 def match_stream(problem: Problem, state: State, work: Work) -> None:
     """Compute, in place, stream functions with the same mass flux in all columns.
 
@@ -141,7 +141,7 @@ def match_stream(problem: Problem, state: State, work: Work) -> None:
     last = flow.stream.shape[1] - 1
     for i in range(state.pressure.size):
         if state.cavitated[i]:
-            flow.stream[i] = flow.stream[i - 1]
+            copy(flow.stream[i - 1], flow.stream[i], last + 1)
         else:
             defect = flux - flow.couette[i, last]
             for k in range(last + 1):
@@ -149,7 +149,7 @@ def match_stream(problem: Problem, state: State, work: Work) -> None:
     face_edges(flow.stream, heat.convection.edges)
 
 
-@kernel
+@inner_kernel
 def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bool:
     """Compute the residuals of all columns and faces; return whether a pressure gradient had to be limited.
 
@@ -163,7 +163,7 @@ def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bo
     return limited
 
 
-@kernel
+@inner_kernel
 def linearise_state(problem: Problem, state: State, work: Work, damping: float) -> None:
     """Compute the derivatives of stress, flow and heat balance of all columns of an evaluated state.
 

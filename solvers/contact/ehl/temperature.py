@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from solvers.arrays import FloatArray
-from solvers.compiled import inlined_kernel, kernel
+from solvers.arrays import FloatArray, copy
+from solvers.compiled import inlined_kernel, inner_kernel, kernel
 from solvers.contact.ehl.flow import evaluate_columns, linearise_columns
 from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.heat import (
@@ -15,7 +15,7 @@ from solvers.contact.ehl.heat import (
     linearise_balances,
     solve_column,
 )
-from solvers.contact.ehl.linear_algebra import row_product
+from solvers.contact.ehl.linear_algebra import add_scaled, row_product
 from solvers.contact.ehl.problem import Problem
 from solvers.contact.ehl.reynolds import film_shape
 from solvers.contact.ehl.shear import Film
@@ -51,22 +51,22 @@ def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -
         work.at[i].p = max(state.pressure[i], 0.0) * problem.maximum_pressure
         work.at[i].g, work.at[i].h = 0.0, work.height[i] * problem.gap_scale
     for i in range(1, n):
-        temperature[i] = temperature[i - 1]
+        copy(temperature[i - 1], temperature[i], nodes)
         for _ in range(COLUMN_ITERATIONS):
             evaluate_columns(problem, temperature, i, i + 1, work.at, film, work.coefficients)
             linearise_columns(problem, i, i + 1, work.at, film, work.coefficients)
             balance_columns(problem, grid, temperature, i, i + 1, work.at, film, heat)
             linearise_balances(problem, temperature, i, i + 1, work.at, 0.0, film, heat)
             factor_columns(i, i + 1, film, heat)
-            step[i] = -heat.column.residual[i]
+            copy(-heat.column.residual[i], step[i], nodes)
             solve_column(i, film, heat, step)
             largest = np.abs(step[i]).max()
-            temperature[i] += min(1.0, LARGEST_STEP / max(largest, LARGEST_STEP)) * step[i]
+            add_scaled(min(1.0, LARGEST_STEP / max(largest, LARGEST_STEP)), step[i], temperature[i])
             if largest < 0.1:
                 break
 
 
-@kernel
+@inner_kernel
 def last_reverse(convection: Convection) -> int:
     """Return the last column into which oil flows from its right neighbour; 0 if there is no such column."""
     n, nodes = convection.from_right.shape
@@ -97,7 +97,7 @@ def _relax_column(i: int, film: Film, heat: Heat, given: FloatArray, weight: flo
         step[i, k] += given[i, k]
 
 
-@kernel
+@inner_kernel
 def temperature_step(
     problem: Problem, grid: Grid, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray
 ) -> None:
@@ -128,7 +128,7 @@ def temperature_step(
                 _relax_column(i, film, heat, given, weight, step)
 
 
-@kernel
+@inner_kernel
 def inlet_step(problem: Problem, work: Work, temperature: FloatArray, step: FloatArray) -> None:
     """Compute the temperature step of the first column, in place.
 

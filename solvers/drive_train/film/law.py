@@ -45,10 +45,10 @@ def film_law(ratio: float) -> FilmLaw:
     own = min(ratio, WIDEST)
     values = CubicSpline((0.0, *RATIOS), table())(own)
     spline = CubicSpline(PLACES, values).c.transpose(1, 0, 2)
-    ends = np.array([0.0, *(1 - (1 - PLACES[1:-1]) ** 2), LARGEST_ECCENTRICITY])
-    law = FilmLaw(own, frozen(np.ascontiguousarray(spline)), ends, np.zeros(0))
+    ends = frozen([0.0, *(1 - (1 - PLACES[1:-1]) ** 2), LARGEST_ECCENTRICITY])
+    law = FilmLaw(own, frozen(np.ascontiguousarray(spline)), ends, frozen(np.zeros(0)))
     loads = np.array([film_at(law, eccentricity).load for eccentricity in ends])
-    return law._replace(eccentricity=frozen(ends), load=frozen(loads))
+    return law._replace(load=frozen(loads))
 
 
 @kernel

@@ -9,7 +9,7 @@ from math import ceil
 import numpy as np
 
 from solvers.arrays import FloatArray, RecordArray
-from solvers.compiled import kernel
+from solvers.compiled import inner_kernel, kernel
 from solvers.errors import NoSolution
 from solvers.pumping.chain.step import advance, empty_pockets
 from solvers.pumping.flow.duct import Duct, active_range, wall_at
@@ -97,7 +97,7 @@ def march_chain(
     return taken, 0.0
 
 
-@kernel
+@inner_kernel
 def _renew(
     gas: Gas,
     duct: Duct,
@@ -127,7 +127,7 @@ def _renew(
             record.energy[0].begun += gas.pressure * area / per_energy * duct.width
 
 
-@kernel
+@inner_kernel
 def _set_walls(duct: Duct, pockets: RecordArray, low: int, high: int, angle: float, turn: float) -> None:
     for i in range(low, high):
         z = duct.start + (i + 0.5) * duct.width
@@ -138,18 +138,18 @@ def _set_walls(duct: Duct, pockets: RecordArray, low: int, high: int, angle: flo
         pockets[face].opening = wall_at(duct, duct.start + face * duct.width, angle + turn).area
 
 
-@kernel
+@inner_kernel
 def _temperature(gas: Gas, pressure: float, area: float, content: float) -> float:
     return pressure * area / (content * gas.constant)
 
 
-@kernel
+@inner_kernel
 def _mach(gas: Gas, left: float, right: float) -> float:
     """Compute the Mach number in the narrowest section of a jet from the pressures on both sides of the jet [Pa]."""
     return throat_mach(gas, max(left, right), min(left, right))
 
 
-@kernel
+@inner_kernel
 def _record_field(gas: Gas, pockets: RecordArray, record: Record, low: int, high: int, k: int) -> None:
     """Record the gas in the active pockets in row k of the record; k is the index of the angle."""
     field = record.field
@@ -162,7 +162,7 @@ def _record_field(gas: Gas, pockets: RecordArray, record: Record, low: int, high
         field[k, i].temperature = _temperature(gas, p, pockets[i].area, pockets[i].new.mass)
 
 
-@kernel
+@inner_kernel
 def _record_ends(
     gas: Gas, duct: Duct, pockets: RecordArray, record: Record, low: int, high: int, dt: float, taken: int
 ) -> None:
@@ -184,14 +184,14 @@ def _record_ends(
             record.energy[0].idle += energy
 
 
-@kernel
+@inner_kernel
 def _asked(gas: Gas, upstream: float, downstream: float) -> float:
     """Compute the Mach number of an expansion from one pressure to another; 0 if there is no expansion."""
     warming = (downstream / upstream) ** ((1.0 - gas.exponent) / gas.exponent) - 1.0
     return float(np.sqrt(max(2.0 / (gas.exponent - 1.0) * warming, 0.0)))
 
 
-@kernel
+@inner_kernel
 def _record_jets(gas: Gas, pockets: RecordArray, record: Record, low: int, high: int) -> None:
     """Record the largest Mach number and the largest velocity of the jets between pockets and at the ends."""
     largest, fastest = 0.0, 0.0
@@ -209,7 +209,7 @@ def _record_jets(gas: Gas, pockets: RecordArray, record: Record, low: int, high:
     include_speed(record.extremes, largest, fastest)
 
 
-@kernel
+@inner_kernel
 def _record_pockets(gas: Gas, duct: Duct, pockets: RecordArray, record: Record, low: int, high: int, dt: float) -> None:
     """Record wall losses, mean temperatures and extreme pressures of the active pockets.
 

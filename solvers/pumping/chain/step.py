@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from solvers.arrays import Fields, RecordArray, floats, records
-from solvers.compiled import kernel
+from solvers.compiled import inner_kernel
 from solvers.pumping.flow.nozzle import Gas, mass_flux
 
 _NEWTON_LIMIT = 200  # number of iterations after which a step counts as not converged
@@ -89,13 +89,13 @@ class Passage(NamedTuple):
     by_right_mass: float
 
 
-@kernel
+@inner_kernel
 def ambient(gas: Gas) -> Side:
     """Return the ambient gas as one side of an opening. The section of this side is 1 m^2."""
     return Side(gas.pressure, gas.density, 1.0)
 
 
-@kernel
+@inner_kernel
 def passages(gas: Gas, left: Side, right: Side) -> tuple[Passage, Passage]:
     """Compute the flow of mass and the flow of heat through an opening, per area of the opening.
 
@@ -120,7 +120,7 @@ def passages(gas: Gas, left: Side, right: Side) -> tuple[Passage, Passage]:
     )
 
 
-@kernel
+@inner_kernel
 def advance(
     gas: Gas, width: float, discharge: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
 ) -> tuple[bool, float]:
@@ -177,13 +177,13 @@ def advance(
     return False, error
 
 
-@kernel
+@inner_kernel
 def _add_change(value: float, change: float) -> float:
     """Add the change of a Newton step to a positive value; the value falls by at most 80 %."""
     return value + max(change, -0.8 * value)
 
 
-@kernel
+@inner_kernel
 def _set_from_flows(
     gas: Gas, width: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
 ) -> None:
@@ -206,7 +206,7 @@ def _set_from_flows(
             pockets[i].new.pressure = energy / (area / (g - 1.0) + work)
 
 
-@kernel
+@inner_kernel
 def _assemble(
     gas: Gas, width: float, discharge: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
 ) -> float:
@@ -225,7 +225,7 @@ def _assemble(
     return error
 
 
-@kernel
+@inner_kernel
 def _store(gas: Gas, pockets: RecordArray, low: int, high: int, isentropic: bool) -> None:
     """Set the residuals and derivatives that the pockets would have if no gas flowed in or out.
 
@@ -253,26 +253,26 @@ def _store(gas: Gas, pockets: RecordArray, low: int, high: int, isentropic: bool
             heat_balance.diagonal.by_pressure = area / (g - 1.0) + work
 
 
-@kernel
+@inner_kernel
 def _clear(balance: Any) -> None:
     balance.lower.by_pressure = balance.lower.by_mass = 0.0
     balance.diagonal.by_pressure = balance.diagonal.by_mass = 0.0
     balance.upper.by_pressure = balance.upper.by_mass = 0.0
 
 
-@kernel
+@inner_kernel
 def _side(pockets: RecordArray, i: int) -> Side:
     return Side(pockets[i].trial.pressure, pockets[i].trial.mass, pockets[i].area)
 
 
-@kernel
+@inner_kernel
 def _add(row: Any, share: float, by_pressure: float, by_mass: float) -> None:
     """Add `share` times two derivatives to the derivatives of a balance."""
     row.by_pressure += share * by_pressure
     row.by_mass += share * by_mass
 
 
-@kernel
+@inner_kernel
 def _leak(gas: Gas, discharge: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool) -> None:
     """Add the flow through the radial gaps to the balances."""
     for i in range(low, high):
@@ -282,7 +282,7 @@ def _leak(gas: Gas, discharge: float, pockets: RecordArray, low: int, high: int,
         _add_leakage(pockets[i].heat_balance, opening, dt, heat, counts=not isentropic)
 
 
-@kernel
+@inner_kernel
 def _add_leakage(balance: Any, opening: float, dt: float, passage: Passage, counts: bool) -> None:
     """Record the leakage through a radial gap; if `counts` is true, also add the leakage to the residual."""
     balance.leak = opening * passage.flow
@@ -292,7 +292,7 @@ def _add_leakage(balance: Any, opening: float, dt: float, passage: Passage, coun
         _add(balance.diagonal, share, passage.by_left_pressure, passage.by_left_mass)
 
 
-@kernel
+@inner_kernel
 def _exchange(
     gas: Gas, width: float, discharge: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
 ) -> None:
@@ -315,7 +315,7 @@ def _exchange(
                 _add_inflow(pockets[face].heat_balance, share, heat)
 
 
-@kernel
+@inner_kernel
 def _add_outflow(balance: Any, share: float, passage: Passage) -> None:
     """Add the outflow through the upper face of a pocket to the balance of this pocket."""
     balance.residual += share * passage.flow
@@ -323,7 +323,7 @@ def _add_outflow(balance: Any, share: float, passage: Passage) -> None:
     _add(balance.upper, share, passage.by_right_pressure, passage.by_right_mass)
 
 
-@kernel
+@inner_kernel
 def _add_inflow(balance: Any, share: float, passage: Passage) -> None:
     """Add the flow that enters a pocket through its lower face to the balance of this pocket."""
     balance.residual -= share * passage.flow
@@ -331,7 +331,7 @@ def _add_inflow(balance: Any, share: float, passage: Passage) -> None:
     _add(balance.lower, -share, passage.by_left_pressure, passage.by_left_mass)
 
 
-@kernel
+@inner_kernel
 def _eliminate(pockets: RecordArray, low: int, high: int) -> None:
     """Compute Newton's correction by elimination of the blocks along the chain.
 
@@ -361,7 +361,7 @@ def _eliminate(pockets: RecordArray, low: int, high: int) -> None:
             correction.mass -= heat.upper.by_pressure * above.pressure + heat.upper.by_mass * above.mass
 
 
-@kernel
+@inner_kernel
 def _substitute(balance: Any, pressure: Any, mass: Any) -> None:
     """Eliminate the pressure and the mass of the pocket below from a balance.
 

@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from solvers.arrays import FloatArray, RecordArray, floats, records
-from solvers.compiled import kernel
+from solvers.compiled import inner_kernel
 
 WALL = floats("area", "clearance", "carried")
 """Names of the fields of `Wall`, for records."""
@@ -50,7 +50,7 @@ def wall_table(area: FloatArray, clearance: FloatArray, carried: FloatArray) -> 
     return table
 
 
-@kernel
+@inner_kernel
 def wall_at(duct: Duct, z: float, angle: float) -> Wall:
     """Interpolate the walls at the position z [m] for an `angle` [rad] of the gear to which the space belongs.
 
@@ -70,7 +70,7 @@ def wall_at(duct: Duct, z: float, angle: float) -> Wall:
     )
 
 
-@kernel
+@inner_kernel
 def phase_of(duct: Duct, i: int, angle: float) -> float:
     """Compute the phase of cell i [rad]: the owner's angle minus the lag of the cell.
 
@@ -79,7 +79,7 @@ def phase_of(duct: Duct, i: int, angle: float) -> float:
     return angle - duct.lag * (duct.start + (i + 0.5) * duct.width)
 
 
-@kernel
+@inner_kernel
 def active_range(duct: Duct, angle: float) -> tuple[int, int]:
     """Find the first active cell and the cell after the last active cell.
 
@@ -95,14 +95,14 @@ def active_range(duct: Duct, angle: float) -> tuple[int, int]:
     return low, max(low, high)
 
 
-@kernel
+@inner_kernel
 def stroke_end(duct: Duct) -> float:
     """Compute the phase [rad] at which the stroke ends."""
     end: float = duct.first_angle + duct.angle_step * (duct.table.size - 1)
     return end
 
 
-@kernel
+@inner_kernel
 def stroke_share(duct: Duct, z: float, angle: float, turn: float) -> float:
     """Compute the fraction of a time step that lies within the stroke at the position z [m].
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solvers.compiled import inlined_kernel, kernel
+from solvers.compiled import inlined_kernel, inner_kernel
 from solvers.pumping.inputs import MOLAR_GAS_CONSTANT, Ambient
 
 _LINEAR = 1e-7  # relative pressure drop; below it the flux is linear in the drop, so that no derivative is infinite
@@ -95,7 +95,7 @@ def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tupl
     return scale * upstream * y * more, by_upstream, by_downstream
 
 
-@kernel
+@inner_kernel
 def _expansion(power: float, drop: float) -> tuple[float, float]:
     """Compute the density ratio y of an isentropic expansion, and the difference y - x.
 
@@ -114,7 +114,7 @@ def _expansion(power: float, drop: float) -> tuple[float, float]:
     return 1.0 - fallen, drop - fallen
 
 
-@kernel
+@inner_kernel
 def mass_flux(gas: Gas, upstream: float, density: float, downstream: float) -> tuple[float, float, float]:
     """Compute the mass flux G through an opening, and the derivatives of G with respect to both pressures.
 
@@ -153,7 +153,7 @@ def mass_flux(gas: Gas, upstream: float, density: float, downstream: float) -> t
     return flux, half * by_upstream, half * by_downstream
 
 
-@kernel
+@inner_kernel
 def throat_mach(gas: Gas, upstream: float, downstream: float) -> float:
     """Compute the Mach number in the narrowest section of an opening; 1 if the opening is choked."""
     g = gas.exponent

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solvers.arrays import FloatArray, RecordArray, floats, frozen, records
-from solvers.compiled import kernel
+from solvers.compiled import inner_kernel
 from solvers.pumping.flow.nozzle import Gas
 from solvers.pumping.space.face import Stretch
 
@@ -66,7 +66,7 @@ def empty_record(gas: Gas, angles: int, cells: int, steps: int) -> Record:
     return Record(field, profile, records(1, EXTREMES), records(1, BALANCE), energy, records(steps, ENDS))
 
 
-@kernel
+@inner_kernel
 def add_outflow(record: Record, end: int, step: int, mass: float, energy: float) -> None:
     """Record the mass [kg] and the energy [J] that left through one end in a step.
 
@@ -82,7 +82,7 @@ def add_outflow(record: Record, end: int, step: int, mass: float, energy: float)
         record.ends[step].high_outflow = mass
 
 
-@kernel
+@inner_kernel
 def add_means(profile: RecordArray, i: int, static: float, stagnation: float, dt: float, share: float) -> None:
     """Add the temperatures of a cell in one step to their integrals over the stroke.
 
@@ -110,21 +110,21 @@ def add_means(profile: RecordArray, i: int, static: float, stagnation: float, dt
     profile[i].active += dt * share
 
 
-@kernel
+@inner_kernel
 def include_pressure(profile: RecordArray, i: int, pressure: float) -> None:
     """Update the highest and the lowest pressure of cell i with a new pressure [Pa]."""
     profile[i].highest = max(profile[i].highest, pressure)
     profile[i].lowest = min(profile[i].lowest, pressure)
 
 
-@kernel
+@inner_kernel
 def include_speed(extremes: RecordArray, mach: float, velocity: float) -> None:
     """Update the extremes of the stroke with a new axial Mach number and a new velocity [m/s]."""
     extremes[0].mach = max(extremes[0].mach, mach)
     extremes[0].velocity = max(extremes[0].velocity, velocity)
 
 
-@kernel
+@inner_kernel
 def include_demand(extremes: RecordArray, mach: float, end: int) -> None:
     """Update the stroke's largest demands with a new demand `mach` at one end of the duct, negative for inflow.
 

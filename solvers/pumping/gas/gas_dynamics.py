@@ -9,7 +9,7 @@ from math import ceil
 import numpy as np
 
 from solvers.arrays import FloatArray
-from solvers.compiled import kernel
+from solvers.compiled import inner_kernel, kernel
 from solvers.errors import NoSolution
 from solvers.pumping.flow.duct import Duct, phase_of, stroke_end, stroke_share, wall_at
 from solvers.pumping.flow.nozzle import Gas
@@ -116,7 +116,7 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
     return taken
 
 
-@kernel
+@inner_kernel
 def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, int]:
     """Find the range of cells that take part in a step.
 
@@ -145,7 +145,7 @@ def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, 
     return low, max(low, high)
 
 
-@kernel
+@inner_kernel
 def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> float:
     """Compute the turn of the gear [rad] in which the fastest wave crosses the fraction `COURANT` of a cell."""
     fastest = gas.sound_speed
@@ -155,7 +155,7 @@ def _longest_turn(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> fl
     return COURANT * duct.width / fastest * duct.speed
 
 
-@kernel
+@inner_kernel
 def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int, new_high: int, angle: float) -> None:
     """Set the gas in every cell that begins its stroke to the state that `_border` computes."""
     rho, u, p = _border(gas, duct, cells, low, high)
@@ -167,7 +167,7 @@ def _fill(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, new_low: int,
             cells.state[i].density, cells.state[i].velocity, cells.state[i].pressure = rho, u, p
 
 
-@kernel
+@inner_kernel
 def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
     """Compute the state of the gas with which the next cells begin their stroke.
 
@@ -186,7 +186,7 @@ def _border(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> State:
     return front_face(gas, duct.speed / duct.lag, State(rho, u, p))
 
 
-@kernel
+@inner_kernel
 def _record_changes(duct: Duct, cells: Cells, record: Record, low: int, high: int, new_low: int, new_high: int) -> None:
     """Update the balances of mass and energy if the stroke of a cell ends or begins between two steps.
 
@@ -203,7 +203,7 @@ def _record_changes(duct: Duct, cells: Cells, record: Record, low: int, high: in
             record.energy[0].begun += cells.content[i].energy * duct.width
 
 
-@kernel
+@inner_kernel
 def _record_ends(
     duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float, taken: int
 ) -> None:
@@ -227,7 +227,7 @@ def _record_ends(
             include_demand(record.extremes, cells.ends[end].demand, end)
 
 
-@kernel
+@inner_kernel
 def _record_cells(
     gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float, longest: float
 ) -> None:
@@ -260,7 +260,7 @@ def _record_cells(
             record.profile[i].mach = max(record.profile[i].mach, mach)
 
 
-@kernel
+@inner_kernel
 def _take_over(cells: Cells, low: int, high: int) -> None:
     """Copy the state at the end of a step to the start of the next step."""
     for i in range(low, high):
@@ -268,7 +268,7 @@ def _take_over(cells: Cells, low: int, high: int) -> None:
         cells.state[i] = cells.next_state[i]
 
 
-@kernel
+@inner_kernel
 def _record_field(
     gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, k: int, angle: float
 ) -> None:

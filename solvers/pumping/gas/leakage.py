@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solvers.compiled import inlined_kernel, kernel
+from solvers.compiled import inlined_kernel, inner_kernel
 from solvers.pumping.flow.nozzle import Gas, flux_squared
 
 _NEWTON_LIMIT = 30  # iterations; Newton's method on the square of the flux needs few
@@ -122,12 +122,12 @@ def implicit_stage(
     )
 
 
-@kernel
+@inner_kernel
 def _unphysical() -> Stage:
     return Stage(0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, False)
 
 
-@kernel
+@inner_kernel
 def _improve(flux: float, squared: float, slope: float) -> float:
     """Return the positive root x of x^2 = squared + slope (x - flux); return 0 if there is no positive root.
 
@@ -143,7 +143,7 @@ def _improve(flux: float, squared: float, slope: float) -> float:
     return root
 
 
-@kernel
+@inner_kernel
 def _is_settled(change: float, content: float, drop: float) -> bool:
     """Return whether the error of the flux is within tolerance after a Newton step.
 

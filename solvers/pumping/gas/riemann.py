@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solvers.compiled import kernel
+from solvers.compiled import inner_kernel
 from solvers.pumping.flow.nozzle import Gas
 
 COLDEST = 1e-3  # least speed of sound of an inflow over that of the ambient gas; nearly a vacuum
@@ -30,7 +30,7 @@ class Conserved(NamedTuple):
     energy: float
 
 
-@kernel
+@inner_kernel
 def flux(g: float, area: float, state: State, ram: float) -> Conserved:
     """Compute the flux of a state through an area: A (rho u, rho u^2 + p, u (rho E + p)).
 
@@ -59,13 +59,13 @@ def flux(g: float, area: float, state: State, ram: float) -> Conserved:
     return Conserved(area * rho * u, area * (ram + p), area * u * (g / (g - 1.0) * p + 0.5 * ram))
 
 
-@kernel
+@inner_kernel
 def ram_pressure(state: State) -> float:
     """Compute the ram pressure rho u^2 [Pa]."""
     return state.density * state.velocity * state.velocity
 
 
-@kernel
+@inner_kernel
 def hllc(g: float, left: State, right: State) -> Conserved:
     """Compute the HLLC flux with Einfeldt's wave speeds (Toro, Riemann Solvers, 2009, sections 10.4 to 10.6)."""
     rho_l, u_l, p_l = left
@@ -87,7 +87,7 @@ def hllc(g: float, left: State, right: State) -> Conserved:
     return _star_flux(g, right, s_r, s_m)
 
 
-@kernel
+@inner_kernel
 def _star_flux(g: float, state: State, s: float, s_m: float) -> Conserved:
     """Compute the flux between an outer wave of speed `s` and the contact discontinuity of speed `s_m`.
 
@@ -105,7 +105,7 @@ def _star_flux(g: float, state: State, s: float, s_m: float) -> Conserved:
     )
 
 
-@kernel
+@inner_kernel
 def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
     """Compute the state of a face that opens into the ambient, and the demand of this face.
 
@@ -149,7 +149,7 @@ def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
     return State(rho_f, v_f, rho_f * c_f * c_f / g), mach
 
 
-@kernel
+@inner_kernel
 def front_face(gas: Gas, speed: float, cell: State) -> State:
     """Compute the state of the gas at a border that moves at `speed` [m/s] into gas at rest.
 
@@ -180,7 +180,7 @@ def front_face(gas: Gas, speed: float, cell: State) -> State:
     return State(face.density, face.velocity + head, face.pressure)
 
 
-@kernel
+@inner_kernel
 def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> tuple[State, float]:
     """Compute the state of ambient gas at the face through which this gas flows from rest into a cell.
 

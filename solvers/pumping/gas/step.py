@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 
 from solvers.arrays import FloatArray, RecordArray, floats, records
-from solvers.compiled import kernel
+from solvers.compiled import inner_kernel
 from solvers.pumping.flow.duct import WALL, Duct, Wall, stroke_share, wall_at
 from solvers.pumping.flow.nozzle import Gas
 from solvers.pumping.gas.leakage import Stage, Walls, implicit_stage
@@ -101,7 +101,7 @@ def empty_cells(cells: int) -> Cells:
     )
 
 
-@kernel
+@inner_kernel
 def set_walls(duct: Duct, cells: Cells, low: int, high: int, angle: float, turn: float) -> None:
     """Set the walls of the active cells at the start and end of a step, and the face areas in mid-step."""
     for i in range(low, high):
@@ -114,7 +114,7 @@ def set_walls(duct: Duct, cells: Cells, low: int, high: int, angle: float, turn:
         cells.face_area[i] = wall_at(duct, duct.start + i * duct.width, angle + 0.5 * turn).area
 
 
-@kernel
+@inner_kernel
 def _put(walls: RecordArray, i: int, wall: Wall, share: float) -> None:
     """Store the walls of cell i.
 
@@ -123,7 +123,7 @@ def _put(walls: RecordArray, i: int, wall: Wall, share: float) -> None:
     walls[i].area, walls[i].clearance, walls[i].carried = wall.area, share * wall.clearance, wall.carried
 
 
-@kernel
+@inner_kernel
 def step(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float, order: int) -> bool:
     """Advance the active cells by one time step.
 
@@ -158,7 +158,7 @@ def step(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float, ord
     return _correct(gas, duct, cells, low, high, dt)
 
 
-@kernel
+@inner_kernel
 def _set_slopes(cells: Cells, low: int, high: int, order: int) -> None:
     """Compute limited slopes of the state over the cells.
 
@@ -184,12 +184,12 @@ def _set_slopes(cells: Cells, low: int, high: int, order: int) -> None:
             _put_slope(slope, i, 0.0, 0.0, 0.0)
 
 
-@kernel
+@inner_kernel
 def _put_slope(slope: RecordArray, i: int, density: float, velocity: float, pressure: float) -> None:
     slope[i].density, slope[i].velocity, slope[i].pressure = density, velocity, pressure
 
 
-@kernel
+@inner_kernel
 def _limited(side: int, back: float, ahead: float) -> float:
     """Return the limited slope of a cell from the differences to the two neighbouring cells.
 
@@ -203,7 +203,7 @@ def _limited(side: int, back: float, ahead: float) -> float:
     return 2.0 * back * ahead / (back + ahead) if back * ahead > 0.0 else 0.0
 
 
-@kernel
+@inner_kernel
 def _end_slope(nearest: float, next_one: float) -> float:
     """Compute the limited slope in an end cell from the two differences that are nearest to this cell.
 
@@ -216,7 +216,7 @@ def _end_slope(nearest: float, next_one: float) -> float:
     return slope if abs(slope) < 2.0 * abs(nearest) else 2.0 * nearest
 
 
-@kernel
+@inner_kernel
 def _walls(duct: Duct, now: RecordArray, after: RecordArray, i: int, fraction: float, dt: float) -> Walls:
     """Interpolate the walls of cell i between the start of a step (fraction 0) and its end (fraction 1)."""
     return Walls(
@@ -227,7 +227,7 @@ def _walls(duct: Duct, now: RecordArray, after: RecordArray, i: int, fraction: f
     )
 
 
-@kernel
+@inner_kernel
 def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
     """Compute the states in the middle of the step by Hancock's method.
 
@@ -254,7 +254,7 @@ def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
     return True
 
 
-@kernel
+@inner_kernel
 def _own_flux(g: float, area: float, edge: State) -> Conserved:
     """Compute the flux through a face of a cell from the state `edge` of this cell at the face.
 
@@ -263,7 +263,7 @@ def _own_flux(g: float, area: float, edge: State) -> Conserved:
     return flux(g, area, edge, edge.density * edge.velocity**2)
 
 
-@kernel
+@inner_kernel
 def _edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
     """Extrapolate the state w of cell i linearly to an edge of this cell; s is the change of the state over the cell.
 
@@ -276,7 +276,7 @@ def _edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
     )
 
 
-@kernel
+@inner_kernel
 def _safe_edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
     """Extrapolate the state w like `_edge`, but return the state of the cell if the result is not safe.
 
@@ -288,7 +288,7 @@ def _safe_edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
     return edge
 
 
-@kernel
+@inner_kernel
 def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None:
     half, slope, fluxes, area = cells.half, cells.slope, cells.flux, cells.face_area
     for i in range(low + 1, high):
@@ -304,7 +304,7 @@ def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None
         _set_end(gas, cells, high - 1, high, 1)
 
 
-@kernel
+@inner_kernel
 def _put_flux(gas: Gas, cells: Cells, face: int, outward: float, state: State) -> None:
     """Store the flux of a state through a face.
 
@@ -316,7 +316,7 @@ def _put_flux(gas: Gas, cells: Cells, face: int, outward: float, state: State) -
     fluxes[face].momentum = through.momentum
 
 
-@kernel
+@inner_kernel
 def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
     """Compute the flux through an end that opens into the ambient."""
     outward, ends = 2.0 * end - 1.0, cells.ends
@@ -327,7 +327,7 @@ def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
     ends[end].demand, ends[end].mach, ends[end].velocity = demand, opening.velocity / sound, opening.velocity
 
 
-@kernel
+@inner_kernel
 def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
     """Compute mass, momentum and energy of the cells at the end of the step.
 
@@ -380,7 +380,7 @@ def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
     return True
 
 
-@kernel
+@inner_kernel
 def _store(gas: Gas, content: RecordArray, state: RecordArray, i: int, stage: Stage, area: float) -> None:
     content[i].mass, content[i].momentum, content[i].energy = stage.mass, stage.momentum, stage.energy
     state[i].density, state[i].velocity = stage.mass / area, stage.momentum / stage.mass

@@ -10,7 +10,7 @@ an involute to its base circle.
 
 import numpy as np
 
-from solvers.compiled import kernel
+from solvers.compiled import inner_kernel
 from solvers.gears.gear import RackFillet, fillet_point, fillet_sector_area
 from solvers.pumping.space.tooth_space import ToothSpace
 
@@ -18,14 +18,14 @@ _SCAN = 17  # number of points of the fillet by which the search brackets the ne
 _GOLDEN = 0.6180339887498949  # (sqrt(5) - 1) / 2, the golden section
 
 
-@kernel
+@inner_kernel
 def involute(roll: float, base: float) -> float:
     """Compute the polar angle [rad] between the start of an involute and the point at the roll length `roll` [m]."""
     angle: float = roll / base - np.arctan(roll / base)
     return angle
 
 
-@kernel
+@inner_kernel
 def sector(roll: float, base: float) -> float:
     """Compute the area [m^2] between an involute and the centre of its base circle: 1/2 integral r^2 dpsi.
 
@@ -34,7 +34,7 @@ def sector(roll: float, base: float) -> float:
     return roll**3 / (6.0 * base)
 
 
-@kernel
+@inner_kernel
 def sector_to_involute(space: ToothSpace, roll: float) -> float:
     """Compute the area [m^2] between the gear's axis and the profile of its tooth space, up to a point of the involute.
 
@@ -44,14 +44,14 @@ def sector_to_involute(space: ToothSpace, roll: float) -> float:
     return space.root.sector_area + sector(roll, base) - sector(space.root.involute_roll, base)
 
 
-@kernel
+@inner_kernel
 def _distance_to_fillet(fillet: RackFillet, t: float, radius: float, angle: float) -> float:
     r, psi = fillet_point(fillet, t)
     distance: float = np.sqrt((r - radius) ** 2 + 4.0 * r * radius * np.sin(0.5 * (psi - angle)) ** 2)
     return distance
 
 
-@kernel
+@inner_kernel
 def _nearest_on_fillet(fillet: RackFillet, radius: float, angle: float) -> tuple[float, float]:
     """Find the point of the fillet nearest to (radius, angle).
 
@@ -74,7 +74,7 @@ def _nearest_on_fillet(fillet: RackFillet, radius: float, angle: float) -> tuple
     return t, _distance_to_fillet(fillet, t, radius, angle)
 
 
-@kernel
+@inner_kernel
 def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[float, float]:
     """Find the point of the tooth space's flank nearest to the point (radius, angle).
 
@@ -94,7 +94,7 @@ def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[floa
     return foot, np.sqrt((r - radius) ** 2 + 4.0 * r * radius * np.sin(0.5 * (psi - angle)) ** 2)
 
 
-@kernel
+@inner_kernel
 def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[float, float, float, float]:
     """Find the point of the tooth space's profile nearest to the point (radius, angle).
 
@@ -123,7 +123,7 @@ def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[
     return distance, r, psi, area
 
 
-@kernel
+@inner_kernel
 def foot_on_mate(space: ToothSpace, radius: float, angle: float) -> tuple[float, float]:
     """Find the point of the mating tooth's flank nearest to the point (radius, angle).
 
@@ -142,7 +142,7 @@ def foot_on_mate(space: ToothSpace, radius: float, angle: float) -> tuple[float,
     return foot, np.sqrt((r - radius) ** 2 + 4.0 * r * radius * np.sin(0.5 * (half_angle - angle)) ** 2)
 
 
-@kernel
+@inner_kernel
 def from_mate(
     space: ToothSpace, angle: float, mate_angle: float, mate_roll: float
 ) -> tuple[float, float, float, float]:
@@ -157,7 +157,7 @@ def from_mate(
     return nearest_on_profile(space, np.hypot(x, y), angle - np.arctan2(x, y))
 
 
-@kernel
+@inner_kernel
 def from_own(space: ToothSpace, angle: float, mate_angle: float, roll: float) -> tuple[float, float]:
     """Find the point of the mating tooth's flank nearest to a point of the tooth space's flank.
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from solvers.compiled import kernel
+from solvers.compiled import inner_kernel
 from solvers.pumping.space.profile import from_mate, from_own, involute, sector, sector_to_involute
 from solvers.pumping.space.tooth_space import ToothSpace
 
@@ -29,7 +29,7 @@ class Section(NamedTuple):
     carried: float
 
 
-@kernel
+@inner_kernel
 def _area_part(space: ToothSpace, own_x: float, own_y: float, mate_x: float, mate_y: float, mate_roll: float) -> float:
     """Compute an area [m^2] that belongs to the left or the right side of a tooth space.
 
@@ -42,7 +42,7 @@ def _area_part(space: ToothSpace, own_x: float, own_y: float, mate_x: float, mat
     return section - under_flank - 0.5 * space.mate_tip_radius**2 * space.mate_tip_half_angle
 
 
-@kernel
+@inner_kernel
 def _close(
     space: ToothSpace, angle: float, mate_angle: float, own_radius: float, own_half_angle: float, mate_roll: float
 ) -> float:
@@ -59,7 +59,7 @@ def _close(
     return _area_part(space, own_x, own_y, mate_x, mate_y, mate_roll)
 
 
-@kernel
+@inner_kernel
 def _corner_section(space: ToothSpace, angle: float, mate_angle: float) -> tuple[float, float, float, float, float]:
     """Find the shortest line between a tip corner of one gear and the profile of the other gear.
 
@@ -80,7 +80,7 @@ def _corner_section(space: ToothSpace, angle: float, mate_angle: float) -> tuple
     return clearance, r, psi, below, foot
 
 
-@kernel
+@inner_kernel
 def _flank_section(
     space: ToothSpace, angle: float, mate_angle: float, roll: float, mate_roll: float, gap: float
 ) -> tuple[float, float, float, float, float]:
@@ -104,7 +104,7 @@ def _flank_section(
     return clearance, r, psi, sector_to_involute(space, roll), foot
 
 
-@kernel
+@inner_kernel
 def _carried(space: ToothSpace, roll: float, gap: float) -> float:
     """Compute the volume of gas per face width [m^2] that rolling flanks have carried through a gap of `gap` [m].
 
@@ -118,7 +118,7 @@ def _carried(space: ToothSpace, roll: float, gap: float) -> float:
     return 0.25 * gap / space.base_radius * (own**2 - space.ratio * mate**2)
 
 
-@kernel
+@inner_kernel
 def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tuple[float, float, float]:
     """Compute the values of the left or the right side of a tooth space.
 
@@ -148,7 +148,7 @@ def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tup
     return _close(space, angle, mate_angle, r, psi, foot) - below, clearance, carried
 
 
-@kernel
+@inner_kernel
 def section(space: ToothSpace, angle: float) -> Section:
     """Compute the section of a tooth space at an angle of its owner.
 

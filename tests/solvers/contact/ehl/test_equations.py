@@ -12,26 +12,41 @@ import numpy as np
 import pytest
 
 from solvers.arrays import FloatArray
-from solvers.contact.ehl import LineContactInputs, Model, Rheology, equations
+from solvers.compiled import kernel
+from solvers.contact.ehl import (
+    LineContactInputs,
+    Model,
+    Rheology,
+    equations,
+    heat,
+    newton,
+    reynolds,
+    state,
+    temperature,
+)
 from solvers.contact.ehl.continuation import budget_for, solve_cold
 from solvers.contact.ehl.equations import Carried, Residual
 from solvers.contact.ehl.grid import Grid
-from solvers.contact.ehl.heat import factor_columns
 from solvers.contact.ehl.model import resolution_for
-from solvers.contact.ehl.newton import (
-    add_temperature_changes,
-    evaluate_isothermal,
-    factor_jacobian,
-    newton_step,
-    pressure_responses,
-)
 from solvers.contact.ehl.problem import Problem, groups, problem
-from solvers.contact.ehl.reynolds import assemble_jacobian, balance_of_mass, mass_flux_slopes
-from solvers.contact.ehl.state import State, Work, evaluate_state, linearise_state, work_arrays
-from solvers.contact.ehl.temperature import inlet_step
+from solvers.contact.ehl.state import State, Work, work_arrays
 from solvers.lubricants import Lubricant
 from tests.support.line_contacts import at_pressure, random_contacts
 from tests.support.properties import first
+
+# Python calls compiled kernels here.
+factor_columns = kernel(heat.factor_columns)
+add_temperature_changes = kernel(newton.add_temperature_changes)
+evaluate_isothermal = kernel(newton.evaluate_isothermal)
+factor_jacobian = kernel(newton.factor_jacobian)
+newton_step = kernel(newton.newton_step)
+pressure_responses = kernel(newton.pressure_responses)
+assemble_jacobian = kernel(reynolds.assemble_jacobian)
+balance_of_mass = kernel(reynolds.balance_of_mass)
+mass_flux_slopes = kernel(reynolds.mass_flux_slopes)
+evaluate_state = kernel(state.evaluate_state)
+linearise_state = kernel(state.linearise_state)
+inlet_step = kernel(temperature.inlet_step)
 
 THERMAL = {name: Model(rheology=name, nodes=61, film_nodes=11) for name in get_args(Rheology)}
 ISOTHERMAL = {name: replace(model, thermal=False) for name, model in THERMAL.items()}

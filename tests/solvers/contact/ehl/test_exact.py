@@ -7,16 +7,26 @@ import pytest
 from hypothesis import strategies as st
 
 from solvers.arrays import RecordArray, records
-from solvers.contact.ehl import Contact, LineContactInputs, Model
-from solvers.contact.ehl.flow import PLACE, evaluate_columns, flow_coefficients, linearise_columns
+from solvers.compiled import kernel
+from solvers.contact.ehl import Contact, LineContactInputs, Model, flow, heat, linear_algebra, newton
+from solvers.contact.ehl.flow import PLACE, flow_coefficients
 from solvers.contact.ehl.grid import Grid, deflection_matrix, grid_for, heat_matrix
-from solvers.contact.ehl.heat import balance_columns, factor_columns, heat_arrays, linearise_balances, solve_column
-from solvers.contact.ehl.linear_algebra import factor, substitute
-from solvers.contact.ehl.newton import uniform_film
+from solvers.contact.ehl.heat import heat_arrays
 from solvers.contact.ehl.problem import Problem, groups, problem
 from solvers.contact.ehl.shear import film_arrays
 from solvers.lubricants import Lubricant
 from tests.support.properties import examples
+
+# Python calls compiled kernels here.
+evaluate_columns = kernel(flow.evaluate_columns)
+linearise_columns = kernel(flow.linearise_columns)
+balance_columns = kernel(heat.balance_columns)
+factor_columns = kernel(heat.factor_columns)
+linearise_balances = kernel(heat.linearise_balances)
+solve_column = kernel(heat.solve_column)
+factor = kernel(linear_algebra.factor)
+substitute = kernel(linear_algebra.substitute)
+uniform_film = kernel(newton.uniform_film)
 
 POINT = Contact(2.73e5, 4.015e-3, 1.0, 3.5)
 
