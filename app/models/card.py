@@ -114,7 +114,7 @@ class Pump(NamedTuple):
     sized: Callable[[Any], float | None]
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Calculation:
     """One endpoint of a model, with its solver, its figures and its words.
 
@@ -135,7 +135,7 @@ class Calculation:
     pump: Pump | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Card:
     """A model: the name of its chapter, its endpoints, and what the start page shows.
 
