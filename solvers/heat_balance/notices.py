@@ -36,8 +36,8 @@ def heat_notices(network: Network, rises: FloatArray, cooling: Cooling) -> Itera
         message = (
             f"above {COMPARED:g} m/s the heat balance has not been compared with measurements. At "
             f"{network.spray.velocity:.3g} m/s flank temperatures are uncertain by about ±{KNOWN_WITHIN:g} K. "
-            "Differences between gears, oils or oil flows are less uncertain, those between directions of the jets are not. "
-            "A measured gear temperature reduces the uncertainty"
+            "Differences between gears, oils or oil flows are less uncertain, those between directions of the jets "
+            "are not. A measured gear temperature reduces the uncertainty"
         )
         yield Notice("not_validated", message, "cooling.measured", rank="note")
 
