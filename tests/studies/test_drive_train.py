@@ -105,7 +105,7 @@ def test_the_usual_corners() -> None:
 @pytest.mark.parametrize("every", [pytest.param(29, marks=pytest.mark.ci), pytest.param(1, marks=pytest.mark.slow)])
 def test_all_corners_converge_with_bearing_films_of_finite_width(every: int) -> None:
     """Of 288 corners of the turbo unit, none takes more iterations than with short bearings plus two."""
-    axes = {
+    axes: dict[tuple[str, ...], list[tuple[float, ...]]] = {
         ("couplings.0.friction.coefficient",): [(0.05,), (0.15,), (0.25,)],
         tuple(OFFSETS): [(0.0, 400.0), (-400.0, 0.0), (0.0, -400.0), (400.0, 0.0)],
         ("couplings.0.thrust_fraction",): [(0.0,), (0.5,), (1.0,)],
