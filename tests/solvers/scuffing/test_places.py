@@ -19,6 +19,9 @@ from tests.support.modified_pairs import random_pair
 from tests.support.properties import seeds
 
 EXACT = 1e-6
+# The hottest place may lie on a ridge of the load that is flat along its length; it is known there to 1e-5 of the face,
+# and the curves along the profile line through it change by as much. Its own numbers do not.
+LOOSE = {"^hottest_path": 1e-5}
 PARTS = r"^(?!(flash|contact_temperature|film|safety|hottest_path|micropitting|wear)\.)"
 # The paper's feature line is a diagonal; its mirror image is the other one.
 DIAGONAL = r"_at_psi$|feature_line|^micropitting\.local\.points"
@@ -65,20 +68,20 @@ def test_a_spur_pair_and_its_mirror_image(random: np.random.Generator) -> None:
         return values[:, ::-1] if values.ndim == 2 else values
 
     without = f"{PARTS}|{DIAGONAL}|{PLACE}"
-    assert not differences(one, other, turned, tolerance=EXACT, without=without)
+    assert not differences(one, other, turned, tolerance=EXACT, loose=LOOSE, without=without)
 
 
 @seeds(15, 300)
 def test_a_pair_whose_wheel_drives(random: np.random.Generator) -> None:
-    assert_exchange_is_harmless(random)
+    assert_exchange_is_harmless(random, LOOSE)
 
 
 def test_the_profile_line_has_no_hand_where_the_load_is_flat_over_the_face() -> None:
     """A crowned pair has its largest load in the flat middle of the face; the line through it was a step off."""
-    assert_exchange_is_harmless(np.random.default_rng([38, 58]))
+    assert_exchange_is_harmless(np.random.default_rng([38, 58]), {})
 
 
-def assert_exchange_is_harmless(random: np.random.Generator) -> None:
+def assert_exchange_is_harmless(random: np.random.Generator, loose: dict[str, float]) -> None:
     inputs = pair(random)
     one, other = solve_scuffing(inputs), solve_scuffing(exchanged(inputs))
     before = leaves(one)
@@ -93,7 +96,8 @@ def assert_exchange_is_harmless(random: np.random.Generator) -> None:
         return turned[:, ::-1] if turned.ndim == 2 else turned
 
     points = r"^micropitting\.(local|standard)\.points|^micropitting\.test\.|^hottest_path.status"
-    assert not differences(one, other, expected, tolerance=EXACT, without=f"{PARTS}|{PLACE}|{points}")
+    without = f"{PARTS}|{PLACE}|{points}"
+    assert not differences(one, other, expected, tolerance=EXACT, loose=loose, without=without)
     if one.hottest_path is not None and other.hottest_path is not None:
         assert one.hottest_path.status == other.hottest_path.status[::-1]
     ratios = [{each.point: each.ratio for each in found.micropitting.local.points} for found in (one, other)]
