@@ -1,4 +1,4 @@
-"""A client of the service for scripts and notebooks; it needs only httpx.
+"""A client of the service for scripts and notebooks; besides this package it needs only httpx.
 
     from app.client import Tribodrive
 
@@ -21,6 +21,8 @@ from math import inf
 from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 
 import httpx
+
+from app.errors import sentence
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -67,7 +69,8 @@ class ProblemError(ServiceError):
         self.errors: list[Json] = (
             [error for error in errors if isinstance(error, dict)] if isinstance(errors, list) else []
         )
-        faults = "; ".join(f"{error.get('pointer') or 'request'}: {error.get('message', '')}" for error in self.errors)
+        texts = ({name: str(error.get(name) or "") for name in ("pointer", "message")} for error in self.errors)
+        faults = "; ".join(map(sentence, texts))
         super().__init__(f"{self.status} {self.code}: {faults or document.get('detail', '')}")
 
 

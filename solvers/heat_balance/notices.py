@@ -13,6 +13,7 @@ from solvers.lubricants import hotter_than_gears
 from solvers.notices import Notice, unusual_value
 
 SLOW = 40.0  # m/s; at lower speeds the flanks are also wetted by oil that does not come from the jets
+COMPARED = 50.0  # m/s; no measurement above this speed was available
 TURBULENT = 41.0  # this number times sqrt(R/c) is the Reynolds number at which Taylor vortices begin in a plain bearing
 KNOWN_WITHIN = 15.0  # K, chosen: uncertainty of flank temperatures without a measured gear temperature
 MEETS = 0.01  # K; tolerance of a measured drain temperature
@@ -31,11 +32,12 @@ def heat_notices(network: Network, rises: FloatArray, cooling: Cooling) -> Itera
         )
         yield Notice("low_speed", message, "cooling")
     yield from _oil_notices(network, rises)
-    if not cooling.measured.rotors:
+    if network.spray.velocity > COMPARED and not cooling.measured.rotors:
         message = (
-            "above 50 m/s the heat balance has not been compared with measurements. Flank temperatures are uncertain "
-            f"by about ±{KNOWN_WITHIN:g} K. Differences between gears, oils or oil flows are less uncertain, those "
-            "between directions of the jets are not. A measured gear temperature reduces the uncertainty"
+            f"above {COMPARED:g} m/s the heat balance has not been compared with measurements. At "
+            f"{network.spray.velocity:.3g} m/s flank temperatures are uncertain by about ±{KNOWN_WITHIN:g} K. "
+            "Differences between gears, oils or oil flows are less uncertain, those between directions of the jets "
+            "are not. A measured gear temperature reduces the uncertainty"
         )
         yield Notice("not_validated", message, "cooling.measured", rank="note")
 

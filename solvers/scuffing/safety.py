@@ -207,11 +207,17 @@ def _lines(
     ]
     if survey.points.undefined.any():
         added.append(survey.psi[np.argmax(survey.points.undefined)])
-    feature = line_at(np.unique(np.append(even, added)))
+    feature = line_at(_joined(even, added))
     if hottest is None or hottest.value == 0.0:
         return [feature]
     psi = hottest.x / distribution.path_of_contact.length
-    return [feature, line_at(np.unique(np.append(even, psi)), hottest.y)]
+    return [feature, line_at(_joined(even, [psi]), hottest.y)]
+
+
+def _joined(even: FloatArray, added: list[float]) -> FloatArray:
+    """Return both kinds of points in order; an added point replaces one that differs from it by rounding only."""
+    apart = [place for place in even if all(abs(place - other) > SAME for other in added)]
+    return np.unique([*apart, *added])
 
 
 def _surfaces(temperatures: Temperatures, face: FloatArray) -> FloatArray:

@@ -84,6 +84,13 @@ def test_a_refusal_names_field_and_cause(service: Tribodrive) -> None:
     assert [each["pointer"] for each in caught.value.errors] == ["/coupling/teeth"]
 
 
+def test_a_refusal_that_names_its_field_names_it_once() -> None:
+    fault = {"pointer": "/gears/module_mm", "code": "out_of_range", "message": "module_mm is 0, and must be above 0"}
+    with pytest.raises(ProblemError) as caught:
+        behind(httpx.Response(422, json={"errors": [fault, {"pointer": "", "message": None}]})).scuffing({})
+    assert str(caught.value) == "422 : /gears/module_mm is 0, and must be above 0; request: "
+
+
 def test_a_sweep_is_an_iterator_and_a_table(service: Tribodrive) -> None:
     sweep = service.sweep(SWEEP, progress=True)
     thrusts = [point["out"][0] for point in sweep]

@@ -316,6 +316,19 @@ def test_estimates_made_for_steel_are_warned_of_with_another_material(member: st
     assert "made_for_steel" not in codes(solved(SCUFFING, DRY, {field: modulus}))
 
 
+def test_a_safety_against_micropitting_is_made_for_steel() -> None:
+    """A wheel of plastic with a film safety by ISO/TR 15144-1 is warned of, even if nothing else is estimated."""
+    plastic = {
+        "materials.wheel.youngs_modulus_gpa": 3,
+        "friction_coefficient": 0.05,
+        "temperatures": {"bulk_c": 80, "scuffing_c": 300},
+        "micropitting": {"wear_coefficient_mm3_per_n_m": 1e-9},
+    }
+    assert "made_for_steel" not in codes(solved(SCUFFING, STAGE, plastic))
+    for limit in ({"permissible_ratio": 0.3}, {"failure_load_stage": 8}):
+        assert "made_for_steel" in codes(solved(SCUFFING, STAGE, {**plastic, "micropitting": limit}))
+
+
 def test_a_unit_s_estimates_are_made_for_steel_too() -> None:
     assert "made_for_steel" in codes(solved(TRAIN, TURBO, {"materials.wheel.youngs_modulus_gpa": 110}))
 

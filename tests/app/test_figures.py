@@ -23,6 +23,7 @@ from app.figures.tables import table
 from app.models.drive_train import figures as drive_train
 from app.models.load_distribution.request import FlankModifications
 from app.schema.model import Documented, members
+from solvers.coupling.lubrication import regime_friction
 from solvers.gears.pair import gear_pair
 from solvers.pumping.spaces import flow_at, prepare
 from solvers.scuffing.safety_results import ThermalPath
@@ -266,6 +267,21 @@ def test_friction_map_has_nine_areas_and_holds_the_point() -> None:
     (way,) = panel.lines
     length = abs(np.log(way.x[1] / way.x[0])) + abs(np.log(way.y[1] / way.y[0]))
     assert length == pytest.approx(answer.lubrication.regime.distance_to_boundary)
+
+
+@pytest.mark.parametrize("overlap", [0.3, 0.9, 1.1, 1.5, 1.9, 3.0])
+@pytest.mark.parametrize("capacity", [0.05, 0.15, 0.3, 0.7])
+@pytest.mark.parametrize("mixed", [0.05, 0.07, 0.1])
+def test_the_law_of_friction_is_inside_the_drawn_bands(overlap: float, capacity: float, mixed: float) -> None:
+    """Also in area 1.2, where the law rises to the paper's single value, and the drawn band does too."""
+    (panel,) = figure(CROWNED, "friction-regime").panels
+    (home,) = [area for area in panel.areas if area.left <= overlap < area.right and area.bottom <= capacity < area.top]
+    (band,) = re.findall("μ (to|[<>≈])? ?([0-9.]+)(?:–([0-9.]+))?", home.text)
+    relation, first, last = band
+    low = 0.0 if relation in {"to", "<"} else float(first)
+    high = np.inf if relation == ">" else float(last or first)
+    friction = regime_friction(overlap, capacity, mixed, 0.05)
+    assert low * (1 - 1e-9) <= friction <= high * (1 + 1e-9), home.text
 
 
 def test_contact_track_is_as_wide_as_the_hertz_contact() -> None:

@@ -1,5 +1,8 @@
 """Temperatures behave as physics does, for random pairs: no step over the speed, more heat is not cooler."""
 
+from collections.abc import Callable
+from functools import cache
+from math import sqrt
 from typing import Any
 
 import numpy as np
@@ -44,20 +47,43 @@ def velocity_per_rpm(request: dict[str, Any]) -> float:
     return float(np.pi * diameter / 6e4)
 
 
+def at_constant_torque(request: dict[str, Any]) -> Callable[[float], dict[str, Any]]:
+    """Return a function of the pitch-line velocity [m/s] that solves the request with the torque of its load."""
+    torque = request["load"]["power_kw"] * 9549 / request["load"]["pinion_speed_rpm"]
+    per_rpm = velocity_per_rpm(request)
+
+    @cache
+    def at(velocity: float) -> dict[str, Any]:
+        return solved(request, {"load": {"pinion_torque_n_m": torque, "pinion_speed_rpm": velocity / per_rpm}})
+
+    return at
+
+
 @seeds(6, 50)
 def test_no_step_over_the_speed(random: np.random.Generator) -> None:
     """Safety, bulk temperature and film ratio move by less than 1 % between speeds 0.1 % apart, 5 to 150 m/s."""
-    request = changed(pair(random), {"cooling": GONE})
-    torque = request["load"]["power_kw"] * 9549 / request["load"]["pinion_speed_rpm"]
-    per_rpm = velocity_per_rpm(request)
+    at = at_constant_torque(changed(pair(random), {"cooling": GONE}))
     for velocity in [*np.exp(random.uniform(np.log(5.0), np.log(150.0), 4)), 20.0, 60.0]:
-        before, after = (
-            solved(request, {"load": {"pinion_torque_n_m": torque, "pinion_speed_rpm": velocity * near / per_rpm}})
-            for near in (1.0 - STEPS / 2, 1.0 + STEPS / 2)
-        )
+        before, after = (at(velocity * near) for near in (1.0 - STEPS / 2, 1.0 + STEPS / 2))
         for name, read in CONTINUOUS.items():
             low, high = read(before), read(after)
             assert abs(high - low) < 0.01 * abs(high), f"{name} at {velocity:.4g} m/s: {low:.6g}, {high:.6g}"
+
+
+@seeds(1, 15)
+def test_no_step_hides_between_two_speeds(random: np.random.Generator) -> None:
+    """Where an interval of speeds is halved towards the larger change, again and again, the change vanishes."""
+    at = at_constant_torque(changed(pair(random), {"cooling": GONE}))
+    ends = np.geomspace(5.0, 150.0, 9).tolist()
+    for place in random.choice(8, 2, replace=False):
+        for name, read in CONTINUOUS.items():
+            low, high = ends[place], ends[place + 1]
+            while high / low > 1.0 + STEPS:
+                middle = sqrt(low * high)
+                changes = [abs(read(at(middle)) - read(at(end))) for end in (low, high)]
+                low, high = (low, middle) if changes[0] >= changes[1] else (middle, high)
+            before, after = read(at(low)), read(at(high))
+            assert abs(after - before) < 0.01 * abs(after), f"{name} at {low:.6g} m/s: {before:.6g}, {after:.6g}"
 
 
 CONTINUOUS = {
@@ -93,10 +119,10 @@ def test_more_heat_is_not_cooler(random: np.random.Generator) -> None:
 
 @seeds(3, 200)
 def test_more_oil_is_not_hotter(random: np.random.Generator) -> None:
-    """More oil cools, where it is not the acceleration of the oil that heats the mist."""
+    """More oil cools, unless a cold casing keeps the mist cooler than the oil that is supplied."""
     request = changed(pair(random), {"cooling.band": False, "cooling.gear_flow_l_per_min": GONE})
     found = solved(request)
-    if found["heat"] is None:
+    if found["heat"] is None or found["heat"]["mist_c"] < request["temperatures"]["oil_c"]:
         return
     more = solved(request, {"cooling.gear_flow_l_per_min": min(1.3 * found["heat"]["gear_flow_l_per_min"], 5000.0)})
     assert bulk(more) <= bulk(found) + 1e-6

@@ -19,6 +19,7 @@ from tests.support.requests import changed
 SCUFFING, UNIT = "/v1/scuffing", "/v1/drive-train"
 STARTER = examples()["starter-industrial-micropitting"].request | {"model": {"lubrication": "closed_form"}}
 SPUR = changed(STARTER, {"modifications": {}, "detail": "fields"})
+UNDERCUT = {"gears.pinion": {"teeth": 10}, "gears.wheel": {"teeth": 60}, "temperatures": {"bulk_c": 80}}
 TURBO = changed(examples()["starter-turbo-gear-drive-train"].request, {"model.lubrication": "closed_form"})
 
 
@@ -180,6 +181,22 @@ def test_a_figure_that_is_not_asked_for_is_refused(name: str, changes: dict[str,
         drawn(SCUFFING, name, changed(STARTER, changes))
     assert isinstance(refusal.value, Unprocessable)
     assert refusal.value.code == code
+
+
+@pytest.mark.parametrize(
+    ("name", "changes", "reason"),
+    [
+        ("flank-temperature", {"lubricant": {}, "temperatures": {"bulk_c": 80}}, "friction_coefficient"),
+        ("flank-temperature", UNDERCUT, "gears"),
+        ("micropitting", UNDERCUT, "gears"),
+        ("micropitting", {"load": {"pinion_torque_n_m": 0, "pinion_speed_rpm": 1000}}, "load"),
+    ],
+)
+def test_a_missing_map_has_its_own_reason(name: str, changes: dict[str, Any], reason: str) -> None:
+    """A pair without an oil does not reach a base circle, and an undercut pair does not lack its load."""
+    with pytest.raises(NoFigure) as refusal:
+        drawn(SCUFFING, name, changed(STARTER, {**changes, "modifications": {}}))
+    assert refusal.value.path == reason
 
 
 def test_a_unit_has_the_film_under_its_own_gap() -> None:

@@ -96,7 +96,8 @@ def test_every_endpoint_has_a_study_to_start_from() -> None:
 
 
 def test_the_crowning_that_forgives_is_a_map_of_17_by_11() -> None:
-    slopes, crownings = (varied(study_of(STUDIES[0]), axis) for axis in (0, 1))
+    study = next(each for each in STUDIES if "forgives" in each.title)
+    slopes, crownings = (varied(study_of(study), axis) for axis in (0, 1))
     assert (len(slopes), len(crownings)) == (17, 11)
     assert (slopes[0], slopes[-1]) == (-20.0, 20.0)
 

@@ -96,6 +96,19 @@ def test_the_pump_is_that_of_the_first_point_where_the_request_leaves_the_field_
     assert sized_flow(question, {POWER: 12000}) == sized_flow(question._replace(base=PAIR), {})
 
 
+def test_a_code_counts_once_at_a_point() -> None:
+    """Little oil limits the cooling of both gears: two warnings, one code with one rank at the point of a study."""
+    pair = examples()["starter-turbo-pair-heat"]
+    base = changed(pair.request, {"model.lubrication": "closed_form", "cooling.wetting_share": 0.2})
+    calculation = BY_PATH[pair.endpoint]
+    answer = json.loads(json_answer(calculation, calculation.request.model_validate(base)))
+    codes = [warning["code"] for warning in answer["warnings"]]
+    assert codes.count("oil_limited") == 2
+    (point,) = solve_chunk(Question(pair.endpoint, base, ["safety.blok_factor"], 30.0), [{}]).points
+    assert point.warnings.count("oil_limited") == 1
+    assert len(point.ranks) == len(point.warnings)
+
+
 def one(overrides: dict[str, Any], *, base: dict[str, Any] = LOADS.request, deadline_s: float = 30.0) -> points.Point:
     (point,) = solve_chunk(Question(LOADS.endpoint, base, ["pressure.max_mpa"], deadline_s), [overrides]).points
     return point

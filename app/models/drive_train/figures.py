@@ -309,7 +309,7 @@ def mesh_as_drawn(inputs: DriveTrainInputs, result: DriveTrainResult) -> Scuffin
 
 def where_micropitting_starts(inputs: DriveTrainInputs, result: DriveTrainResult, plain: Scuffing | None) -> Figure:
     """Draw two maps of the film ratio over the flank, one of the unit and one of the unmodified mesh."""
-    answer = micropitting.answered(result.micropitting)
+    answer = micropitting.answered(result)
     return micropitting.over_flanks(inputs.mesh, answer, result.flank, plain)
 
 

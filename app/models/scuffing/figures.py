@@ -280,7 +280,7 @@ def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 def film_against_micropitting(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     """Draw the film ratio at the contact temperature along the evaluated lines, and the permissible ratio."""
-    answer, pair = micropitting.answered(result.micropitting), inputs.distribution
+    answer, pair = micropitting.answered(result), inputs.distribution
     roughness = (pair.pinion_material.roughness + pair.wheel_material.roughness) / 2 / UM
 
     def panel(path: ScuffingPath) -> Panel:

@@ -37,21 +37,21 @@ def solve_unmodified(inputs: ScuffingInputs, *_: Scuffing) -> Scuffing | None:
 
 def where_it_starts(inputs: ScuffingInputs, result: Scuffing, plain: Scuffing | None) -> Figure:
     """Draw two maps of the film ratio over the flank, one of the pair and one of the unmodified pair."""
-    answer = answered(result.micropitting)
+    answer = answered(result)
     return over_flanks(inputs, answer, result.flank, plain)
 
 
-def answered(answer: Micropitting | None) -> Micropitting:
+def answered(result: Scuffing | DriveTrainResult) -> Micropitting:
     """Return the answer of the check. Raise NoFigure if there is no answer or no least film ratio."""
+    answer = result.micropitting
     if answer is None:
         message = "Without an oil and a bulk temperature the film cannot be computed"
         raise NoFigure("no_oil", message, "lubricant")
     if answer.local.least_ratio is None:
-        message = (
-            "The minimum film thickness is unknown, because no point is loaded or the loaded path of contact reaches "
-            "a base circle"
-        )
-        raise NoFigure("no_film", message, "load")
+        if not result.flank.line_load.any():
+            raise NoFigure("no_film", "Without load there is no film that could be too thin", "load")
+        message = "The loaded path of contact reaches a base circle; the film is not defined at a base circle"
+        raise NoFigure("no_film", message, "gears")
     return answer
 
 

@@ -48,7 +48,7 @@ def solve_film(eccentricity: float, ratio: float, refinements: int = 3, *, groov
     """Solve Reynolds' equation at an eccentricity ratio (0 < e < 1) and a ratio L/D of width to diameter (Eq. D17).
 
     The grid of 32 cells around and 6 cells over half the width is halved `refinements` times. With `groove`, an axial
-    groove at ambient pressure lies at the widest gap, where ISO 7902 and Raimondi and Boyd let the film begin.
+    groove at ambient pressure lies at the widest gap, where Raimondi and Boyd let the film begin.
     """
     film = None
     for halvings in range(refinements + 1):

@@ -24,7 +24,9 @@ from solvers.scuffing.results import ContactPoints, LoadDistribution
 from solvers.scuffing.thermal.blok import blok_flash
 
 SURVEY_POINTS = 4001  # points of the feature line at which the formulas are evaluated to find extreme values
-REACHES = (2, 1, 1)  # per zoom: steps of the previous grid that are covered on each side; steps shrink by 2, 4 and 4
+# Steps of the previous grid that a zoom covers on each side. The steps shrink by 2 and then 4 times by 4:
+# where the load is flat over the face, a coarser place depends on the hand of the pair.
+REACHES = (2, 1, 1, 1, 1)
 ZOOM_POINTS = 9  # number of points of a zoom, both along the path and across the face
 ZOOM_FRACTIONS = np.linspace(0.0, 1.0, ZOOM_POINTS)
 

@@ -6,6 +6,7 @@ the face, and the search for the worst contact of the flank is a search along x.
 """
 
 from collections.abc import Callable, Sequence
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
@@ -34,7 +35,7 @@ MOST_PEAKS = 3  # peaks of a formula at which the film is solved
 STEP = 0.04  # of the path: distance to the first neighbours of a peak, chosen; loads and speeds change little over it
 MOVES = 0.003  # share by which the extreme may still move when the refinement ends
 MOST_STEPS = 12  # steps uphill from a peak of a formula, and as many refinements at the top; chosen, rarely more than 3
-ZOOMS = 3  # refinements of the face position of the largest load; each makes the spacing 4 times smaller
+ZOOMS = 7  # refinements of the face position of the largest load; each makes the spacing 4 times smaller
 
 SurfaceFunction = Callable[[FloatArray], FloatArray]
 """A function that returns the bulk temperatures of pinion and wheel (2, n) [K] at distances y [m] along the face."""
@@ -107,6 +108,7 @@ class _Search:
         """Solve contacts from every start uphill to the next peak of `value`, at the worst face position of each x."""
         length = self._distribution.path_of_contact.plane.path_length
 
+        @cache
         def at(x: float) -> float:
             y = across(x)
             return value(self._solution(x, y).path, y)

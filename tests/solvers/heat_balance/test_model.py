@@ -49,6 +49,12 @@ def measured(inputs: HeatBalanceInputs, **celsius: float) -> HeatBalanceInputs:
     return with_cooling(inputs, measured=Measured(**{name: value + CELSIUS for name, value in celsius.items()}))
 
 
+def at_velocity(velocity: float) -> HeatBalanceInputs:
+    """Return the pair at a pitch-line velocity [m/s]."""
+    slower = velocity / (SPEED * RADII[0])
+    return replace(PAIR, gears=tuple(replace(one, speed=one.speed * slower) for one in PAIR.gears))
+
+
 # Worked example, from geometry on
 
 
@@ -283,6 +289,9 @@ def test_warnings() -> None:
     assert codes(solve(with_cooling(PAIR, gear_flow=300 / 6e4))) == {"not_validated"}
     slow = tuple(replace(one, speed=one.speed / 4) for one in PAIR.gears)
     assert "low_speed" in codes(solve(replace(PAIR, gears=slow)))
+    assert {"low_speed", "not_validated"} & codes(solve(at_velocity(45.0))) == set()
+    assert "not_validated" not in codes(solve(replace(PAIR, gears=slow)))
+    assert "not_validated" in codes(solve(at_velocity(51.0)))
     assert "oil_limited" in codes(solve(with_cooling(PAIR, wetting_share=0.2)))
     thin = changed(OIL, {"viscosity": lambda _: 1e-3})
     assert "turbulent_film" in codes(solve(with_cooling(replace(UNIT, oil=thin), band=False)))

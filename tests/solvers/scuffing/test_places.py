@@ -19,9 +19,9 @@ from tests.support.modified_pairs import random_pair
 from tests.support.properties import seeds
 
 EXACT = 1e-6
-# the load over the face is flat at its maximum, so that rounding moves the profile line there by a step of the search
+# The hottest place may lie on a ridge of the load that is flat along its length; it is known there to 1e-5 of the face,
+# and the curves along the profile line through it change by as much. Its own numbers do not.
 LOOSE = {"^hottest_path": 1e-5}
-PARTLY_LOADED = 1e-5  # lines loaded in part are cut anew until TE moves by less than 1e-6 of the approach
 PARTS = r"^(?!(flash|contact_temperature|film|safety|hottest_path|micropitting|wear)\.)"
 # The paper's feature line is a diagonal; its mirror image is the other one.
 DIAGONAL = r"_at_psi$|feature_line|^micropitting\.local\.points"
@@ -57,11 +57,7 @@ def exchanged(inputs: ScuffingInputs) -> ScuffingInputs:
     )
 
 
-def tolerance(found: Scuffing) -> float:
-    return EXACT if found.distribution.load.contact_fraction == 1.0 else PARTLY_LOADED
-
-
-@seeds(3, 300)
+@seeds(15, 300)
 def test_a_spur_pair_and_its_mirror_image(random: np.random.Generator) -> None:
     inputs = pair(random)
     given = inputs.distribution
@@ -72,11 +68,20 @@ def test_a_spur_pair_and_its_mirror_image(random: np.random.Generator) -> None:
         return values[:, ::-1] if values.ndim == 2 else values
 
     without = f"{PARTS}|{DIAGONAL}|{PLACE}"
-    assert not differences(one, other, turned, tolerance=tolerance(one), loose=LOOSE, without=without)
+    assert not differences(one, other, turned, tolerance=EXACT, loose=LOOSE, without=without)
 
 
-@seeds(3, 300)
+@seeds(15, 300)
 def test_a_pair_whose_wheel_drives(random: np.random.Generator) -> None:
+    assert_exchange_is_harmless(random, LOOSE)
+
+
+def test_the_profile_line_has_no_hand_where_the_load_is_flat_over_the_face() -> None:
+    """A crowned pair has its largest load in the flat middle of the face; the line through it was a step off."""
+    assert_exchange_is_harmless(np.random.default_rng([38, 58]), {})
+
+
+def assert_exchange_is_harmless(random: np.random.Generator, loose: dict[str, float]) -> None:
     inputs = pair(random)
     one, other = solve_scuffing(inputs), solve_scuffing(exchanged(inputs))
     before = leaves(one)
@@ -91,15 +96,14 @@ def test_a_pair_whose_wheel_drives(random: np.random.Generator) -> None:
         return turned[:, ::-1] if turned.ndim == 2 else turned
 
     points = r"^micropitting\.(local|standard)\.points|^micropitting\.test\.|^hottest_path.status"
-    assert not differences(
-        one, other, expected, tolerance=tolerance(one), loose=LOOSE, without=f"{PARTS}|{PLACE}|{points}"
-    )
+    without = f"{PARTS}|{PLACE}|{points}"
+    assert not differences(one, other, expected, tolerance=EXACT, loose=loose, without=without)
     if one.hottest_path is not None and other.hottest_path is not None:
         assert one.hottest_path.status == other.hottest_path.status[::-1]
     ratios = [{each.point: each.ratio for each in found.micropitting.local.points} for found in (one, other)]
     image = {"A": "E", "AB": "DE", "B": "D", "C": "C", "D": "B", "DE": "AB", "E": "A"}
     for point, ratio in ratios[0].items():
-        assert ratios[1][image[point]] == (None if ratio is None else pytest.approx(ratio, rel=tolerance(one))), point
+        assert ratios[1][image[point]] == (None if ratio is None else pytest.approx(ratio, rel=EXACT)), point
 
 
 SWEPT = ("helix_slope", "lead_crowning", "torque")
