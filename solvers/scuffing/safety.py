@@ -60,6 +60,8 @@ from solvers.scuffing.thermal.verdict import (
     without_thermal,
 )
 
+SAME = 1e-9  # fractions of the path that differ by less are one; mirror images differ by rounding
+
 
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     """Compute the load distribution of a pair and check it against scuffing.
