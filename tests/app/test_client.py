@@ -77,7 +77,7 @@ def test_an_answer_is_that_of_the_interface(service: Tribodrive, post: Callable[
 
 def test_a_refusal_names_field_and_cause(service: Tribodrive) -> None:
     wrong = {**COUPLING, "coupling": {"teeth": 3, "module_mm": 3}}
-    with pytest.raises(ProblemError, match="/coupling/teeth: ") as caught:
+    with pytest.raises(ProblemError, match="/coupling/teeth is 3") as caught:
         service.coupling(wrong)
     assert caught.value.status == 422
     assert caught.value.code == "invalid_request"
