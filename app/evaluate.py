@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterator
+from dataclasses import asdict
 from hashlib import sha256
 from operator import attrgetter
 from typing import Any
@@ -14,7 +15,7 @@ from app.figures.data import ThemeName
 from app.figures.declaration import Declaration
 from app.models.card import Calculation
 from app.models.kernels import KernelGroup
-from app.schema.answers import MODEL_VERSION, Assumption, Group, Response, assumption, notice_of, read
+from app.schema.answers import MODEL_VERSION, Response, shown
 from app.schema.fields import field_path
 from app.schema.model import Request, Section, members
 from app.schema.reading import validated
@@ -134,7 +135,7 @@ def draw_figure(
 def evaluate(calculation: Calculation, request: Request) -> Response:
     """Solve a request and return the response.
 
-    Raises Unprocessable if the solver rejects the input, and NotFinite if a result is not finite.
+    Raises Unprocessable if the solver rejects the input, and a validation error if a result is not finite.
     """
     return response_to(calculation, request, solve(calculation, request))
 
@@ -155,43 +156,36 @@ def solve(calculation: Calculation, request: Request) -> Any:
 def response_to(calculation: Calculation, request: Request, result: Any) -> Response:
     """Return the response for a solver's result, or for the exception NoSolution that the solver raised.
 
-    Raises NotFinite if a number in the result is not finite.
+    Raises a validation error if a number in the result is not finite.
     """
-    residuals, status = None, "ok"
+    content: dict[str, Any]
     if isinstance(result, NoSolution):
-        warnings = [notice_of("invalid", result.code, result.message)]
-        residuals, status, result = result.residuals, "no_solution", None
+        warning = {"rank": "invalid", "code": result.code, "message": result.message}
+        content = {"status": "no_solution", "warnings": [warning], "residuals": result.residuals}
+        result = None
     else:
         warnings = [
-            notice_of(notice.rank, notice.code, notice.message, field_path(request, notice.field))
+            asdict(notice) | {"field": field_path(request, notice.field)}
             for notice in sorted(result.warnings, key=lambda notice: notices.RANKS.index(notice.rank))
         ]
-        status = "ok_with_warnings" if warnings else "ok"
+        content = shown(calculation.response, result, request.detail)
+        content |= {"status": "ok_with_warnings" if warnings else "ok", "warnings": warnings}
         if getattr(result, "status", None) == "no_solution":
-            residuals, status = result.residuals, "no_solution"
-    inputs = request.model_dump(exclude={"detail"})
-    response: Response = read(
-        calculation.response,
-        result,
-        request.detail,
-        status=status,
-        warnings=warnings,
-        **({} if residuals is None else {"residuals": residuals}),
-        assumptions=[],
-        model_version=MODEL_VERSION,
-        sources=SOURCES,
-        model=request.options(),
-        inputs=inputs,
-        case=case_of(calculation.path, inputs, SOURCES),
+            content |= {"status": "no_solution", "residuals": result.residuals}
+    of_model = (
+        {"field": path, "value": attrgetter(path)(request), "reason": reason}
+        for path, reason in request.assumed_by_the_model().items()
     )
-    response.assumptions = [
-        *_assumptions(request, response.derived),
-        *(
-            assumption(path, attrgetter(path)(request), reason)
-            for path, reason in request.assumed_by_the_model().items()
-        ),
-    ]
-    return response.read_from(result)
+    inputs = request.model_dump(exclude={"detail"})
+    content |= {
+        "assumptions": [*_assumptions(request, content.get("derived", {})), *of_model],
+        "model_version": MODEL_VERSION,
+        "sources": SOURCES,
+        "model": request.options(),
+        "inputs": inputs,
+        "case": case_of(calculation.path, inputs, SOURCES),
+    }
+    return calculation.response.model_validate(content).read_from(result)
 
 
 def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
@@ -204,9 +198,9 @@ def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
 
 
 def _assumptions(
-    section: Section, derived: Group | None, prefix: str = "", unused: frozenset[str] = frozenset()
-) -> Iterator[Assumption]:
-    """Yield each default that is our own choice and affects the result.
+    section: Section, derived: dict[str, Any], prefix: str = "", unused: frozenset[str] = frozenset()
+) -> Iterator[dict[str, Any]]:
+    """Yield the field, the value and the reason of each default that is our own choice and affects the result.
 
     `derived` holds the values that the calculation used, by the names of the fields. `prefix` is put before the names
     of the fields of `section`. `unused` holds the dotted names of fields without effect on the result.
@@ -218,11 +212,11 @@ def _assumptions(
             continue
         value = getattr(section, name)
         if isinstance(value, Section):
-            yield from _assumptions(value, getattr(derived, name, derived), f"{path}.", unused)
+            yield from _assumptions(value, derived.get(name, derived) or {}, f"{path}.", unused)
         elif isinstance(value, list) and member.group:
-            items = getattr(derived, name, None) or [None] * len(value)
-            for index, (item, own) in enumerate(zip(value, items, strict=True)):
+            derived_items = derived.get(name) or [{}] * len(value)
+            for index, (item, own) in enumerate(zip(value, derived_items, strict=True)):
                 yield from _assumptions(item, own, f"{path}.{index}.", unused)
         elif reason and (value is None or name not in section.model_fields_set):
-            used = getattr(derived, name, value)
-            yield assumption(path, section.stands_for_null(name) if used is None else used, reason)
+            used = derived.get(name, value)
+            yield {"field": path, "value": section.stands_for_null(name) if used is None else used, "reason": reason}

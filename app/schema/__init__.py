@@ -2,7 +2,7 @@
 
 quantities  declarations of fields, from which pydantic takes the checks and the JSON schema
 model       models with one field per declaration; conversion to SI
-answers     models of answers, generated and filled in one pass
+answers     models of answers, generated
 fields      the tree of sections and fields of a model, for forms, tables, files and studies
 reading     bodies: reading, validation, and messages about faults
 """

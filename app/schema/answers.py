@@ -7,10 +7,8 @@ component with another name, with other fields, or with views, which say how pag
 from collections.abc import Callable
 from functools import cache, partial
 from importlib.metadata import version
-from math import isfinite
 from typing import Annotated, Any, ClassVar, Literal, Self, get_type_hints
 
-import numpy as np
 from pydantic import ConfigDict, PrivateAttr
 
 from app.schema.model import Documented, Member, generated, members, record_in
@@ -106,14 +104,6 @@ class Assumption(Group):
     reason: Annotated[str, Output("reason of the assumption", text="why this value")]
 
 
-def notice_of(rank: Rank, code: str, message: str, field: str | None = None) -> Notice:
-    return Notice.model_construct(rank=rank, code=code, message=message, field=field)
-
-
-def assumption(field: str, value: Any, reason: str) -> Assumption:
-    return Assumption.model_construct(field=field, value=value, reason=reason)
-
-
 GROUNDS = frozenset({"assumptions", "model_version", "sources", "model", "derived", "inputs", "case"})
 """The names of the fields that stand last in every answer. These fields state the basis of the results."""
 
@@ -164,23 +154,18 @@ class Response(Group):
         cls.model_rebuild(force=True)
 
 
-class NotFinite(ValueError):
-    """A number of a result is NaN or infinite, which is a fault of the solver."""
-
-
-def read(kind: type[Documented], result: Any, detail: Detail, /, **beside: Any) -> Any:
-    """Return a response group, read from a solver's result. `beside` holds fields that the result does not contain.
+def shown(kind: type[Documented], result: Any, detail: Detail) -> dict[str, Any]:
+    """Return the values of a response group, read from a solver's result, by the names of the response's fields.
 
     Each value is converted into the unit in the name of its field. Fields above the level of detail are left out.
-    Raises NotFinite if a number is infinite, or NaN where no gap is declared.
+    Pydantic makes the answer of them, which is quicker than to make the models here.
     """
     content: dict[str, Any] = {}
     record: Any = type(result)
-    for member, holder in _sources(kind, record, detail) if result is not None else ():
+    for member, holder in _sources(kind, record, detail):
         part = getattr(result, holder) if holder else result
         content[member.name] = None if part is None else _displayed(getattr(part, member.solver_name), member, detail)
-    content |= beside
-    return kind.model_construct({*content}, **content)
+    return content
 
 
 @cache
@@ -200,17 +185,7 @@ def _sources(model: type[Documented], record: Any, detail: Detail) -> tuple[tupl
 
 
 def _displayed(value: Any, member: Member, detail: Detail) -> Any:
-    """Return a value in the unit of its field; None replaces NaN in an array with gaps."""
-    unit, inner = member.unit, member.group
-
-    def number(value: Any) -> Any:
-        shown = unit.from_si(value) if unit else value
-        if isinstance(shown, np.ndarray):
-            if np.isinf(shown).any() or (not member.meaning.gaps and np.isnan(shown).any()):
-                raise NotFinite(f"{member.name} is not finite")
-            return as_json(shown)
-        if not isfinite(shown):
-            raise NotFinite(f"{member.name} is {shown}")
-        return float(shown) if float in member.kinds else int(shown)
-
-    return converted(value, number, None if inner is None else lambda part: read(inner, part, detail), list)
+    """Return a value in the unit of its field; None replaces NaN in an array, which marks a point without a value."""
+    group, unit = member.group, member.unit
+    inside = None if group is None else lambda part: shown(group, part, detail)
+    return converted(value, lambda number: as_json(unit.from_si(number) if unit else number), inside, list)

@@ -12,8 +12,8 @@ class body replaces the type of the filled field. A default in the class body re
 If the type in the class body is annotated with an `Input` or `Output`, this annotation replaces the declaration of the
 solver. `Input.of(Record, "field", text=...)` copies the declaration of the solver and replaces only its text.
 
-`Section.si` converts a request into the solver's dataclasses in SI, `app.schema.answers.read` a result into an answer.
-Both take names and units from `members`, which collects them once per model.
+`Section.si` converts a request into the solver's dataclasses in SI, `app.schema.answers.shown` a result into the
+values of an answer. Both take names and units from `members`, which collects them once per model.
 """
 
 from abc import abstractmethod

@@ -25,7 +25,7 @@ from app.pages import csv
 from app.pages.form import FieldView, FormState, form
 from app.pages.results import entries
 from app.pages.templating import page_path
-from app.schema.answers import Group, Response, group, read
+from app.schema.answers import Group, Response, group, shown
 from app.schema.fields import leaf_at
 from app.schema.model import Request, Section
 from app.schema.quantities import Input, View
@@ -299,7 +299,7 @@ class OuterGroup(InnerGroup, of=(Outer, Spring)):
 
 @pytest.mark.parametrize(("deep", "force"), [(Spring(5.0), 5.0), (None, None)])
 def test_an_output_is_read_from_the_member_that_holds_it(deep: Spring | None, force: float | None) -> None:
-    found = read(OuterGroup, Outer(Inner(0.001), 0.002, deep), "summary").model_dump()
+    found = shown(OuterGroup, Outer(Inner(0.001), 0.002, deep), "summary")
     stiffness = None if deep is None else 2.0
     assert found == {"width_mm": 1.0, "height_mm": 2.0, "force_n": force, "stiffness_n_per_um": stiffness}
 
