@@ -7,19 +7,16 @@ from typing import Any, NamedTuple
 
 from app.calculations import CALCULATIONS
 from app.figures.wording import DIFFERENCES, signed
-from app.models.card import Verdict, Words
+from app.models.card import NEAR_LIMIT, Verdict, Words
 from app.pages.typesetting import shown, words
-from app.schema.answers import Response
+from app.schema.answers import GROUNDS, Response
 from app.schema.fields import ITEM, Branch, Leaf, headlines, leaf_at, tree
 from app.schema.model import Documented
 
-NOT_RESULTS = frozenset(
-    {"status", "warnings", "residuals", "assumptions", "model_version", "sources", "model", "derived", "inputs", "case"}
-)
+NOT_RESULTS = GROUNDS | {"status", "warnings", "residuals"}
 DIGITS = 3  # significant digits of a headline number
 SHAFTS = ("pinion shaft", "wheel shaft")
 """Titles of the shafts, in the order of the list of shafts."""
-NEAR = 0.8  # a value above this share of an upper limit is close to the limit
 LEVELS = ("plain", "good", "near", "bad")
 WELL_ABOVE = 2.0  # a value of at least this multiple of a lower limit is well above the limit
 UNCHANGED = 5e-6  # relative change; a smaller change counts as no change
@@ -304,6 +301,6 @@ def _standing(value: float, limit: float, *, greatest_is_best: bool) -> tuple[st
         return "good", "well above the limit {}"
     if abs(value) > limit:
         return "bad", "beyond the limit {}"
-    if abs(value) > NEAR * limit:
+    if abs(value) > NEAR_LIMIT * limit:
         return "near", "close to the limit {}"
     return "good", "within the limit {}"

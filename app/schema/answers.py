@@ -1,4 +1,4 @@
-"""Answers: models that are generated from the solvers' dataclasses, and filled from a result in one pass.
+"""Answers: models that are generated from the solvers' dataclasses, and the values of a result in their units.
 
 A dataclass that a result contains becomes a component of the API with the name of the dataclass. `group` makes a
 component with another name, with other fields, or with views, which say how pages show and judge an output.
@@ -11,7 +11,7 @@ from typing import Annotated, Any, ClassVar, Literal, Self, get_type_hints
 
 from pydantic import ConfigDict, PrivateAttr
 
-from app.schema.model import Documented, Member, generated, members, record_in
+from app.schema.model import Documented, Member, generated, members, record_in, stands_for
 from app.schema.quantities import Output, View
 from solvers.notices import Rank
 from solvers.quantity import Detail, as_json, converted, quantities
@@ -68,7 +68,12 @@ _COMPONENTS: dict[Any, Callable[[], type[Group]]] = {}
 
 
 def component(record: Any, name: str = "", *more: Any, **keywords: Any) -> None:
-    """Say how the component of a dataclass is made, with the arguments of `group`; it is made where it is needed."""
+    """Say how the component of a dataclass is made, with the arguments of `group`; it is made where it is needed.
+
+    Raises TypeError if this was said before or comes too late, because views would be lost in silence.
+    """
+    if record in _COMPONENTS or stands_for(Output, record):
+        raise TypeError(f"the component of {record.__name__} is declared twice, or after it was needed")
     _COMPONENTS[record] = partial(group, record, name, *more, **keywords)
 
 

@@ -142,6 +142,11 @@ _MODELS: dict[tuple[type, type], type[Documented]] = {}
 """The models that represent dataclasses. A key is a pair: `Input` or `Output`, and the dataclass."""
 
 
+def stands_for(declares: type, record: Any) -> "type[Documented] | None":
+    """Return the model that represents a dataclass; None if there is none yet."""
+    return _MODELS.get((declares, record))
+
+
 def _published(hint: Any, declared: Quantity, holder: type[Documented]) -> Any:
     """Return the type that a field of the model `holder` has in the interface.
 
@@ -151,7 +156,7 @@ def _published(hint: Any, declared: Quantity, holder: type[Documented]) -> Any:
     hint = hint if alias is None else alias[get_args(hint)]
     origin, arguments = get_origin(hint), get_args(hint)
     if isinstance(hint, type) and is_dataclass(hint):
-        return _MODELS.get((holder.declares, hint)) or holder.standing_for(hint)
+        return stands_for(holder.declares, hint) or holder.standing_for(hint)
     if origin in {Union, UnionType}:
         return Union[tuple(_published(argument, declared, holder) for argument in arguments)]  # noqa: UP007
     if origin is np.ndarray:
