@@ -10,13 +10,13 @@ from collections.abc import Iterator
 from dataclasses import replace
 from math import cos, pi, radians
 
+from benchmarks.published.xue import POINT_A
 from benchmarks.timing import Figure, MedianFigure, print_times
 from solvers.contact.ehl import Contact, LineContactInputs, Model, solve_path
 from solvers.contact.ehl.model import solve
 from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
 from solvers.lubricants import Lubricant
-from solvers.published.xue import POINT_A
 from tests.support.line_contacts import grid_contacts
 
 EYRING = Model()

@@ -3,7 +3,7 @@
 Run from the project's root: python -m benchmarks.papers
 """
 
-from solvers.published import STATEMENTS, Row
+from benchmarks.published import STATEMENTS, Row
 
 COLUMNS = ("statement", "source", "printed", "computed", "unit", "deviation", "remark")
 

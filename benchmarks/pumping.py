@@ -7,10 +7,10 @@ from collections.abc import Callable
 from dataclasses import replace
 from math import pi
 
+from benchmarks.published.milian import CASE_1, CASE_2
 from benchmarks.timing import Figure, print_times
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.pair import gear_pair
-from solvers.published.milian import CASE_1, CASE_2
 from solvers.pumping import ChokingInputs, Flow, Gap, PumpingInputs, PumpingModel, PumpingSetup, Spaces
 from solvers.pumping.choking import choking_speeds
 from solvers.pumping.model import solve

@@ -11,8 +11,6 @@ from hashlib import sha256
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent
-NO_CALCULATION = "published"
-"""Name of the package with published numbers for comparison. This package does not affect results."""
 DECLARE = frozenset({"quantity", "Quantity", "described", "computed", "record"})
 LABELS = frozenset({"title", "symbol", "source", "text", "default_text", "assumed", "index", "equation"})
 """Names of the keyword arguments of a declaration that are only text and do not affect results.
@@ -47,7 +45,7 @@ def package_digest() -> str:
 
 
 def digest_of(package: Path) -> str:
-    """Return the SHA-256 hash of all modules and tables in `package`, except the modules in `NO_CALCULATION`.
+    """Return the SHA-256 hash of all modules and tables in `package`.
 
     The hash is computed from the names, the syntax trees of the modules, and the contents of the tables. A syntax tree
     contains no comments and no layout. Docstrings and the labels of quantities (title, symbol and similar text) are
@@ -57,10 +55,8 @@ def digest_of(package: Path) -> str:
     """
     digest = sha256()
     for path in _sources(package):
-        place = path.relative_to(package)
-        if NO_CALCULATION not in place.parts:
-            digest.update(f"{place.as_posix()}\n".encode())
-            digest.update(path.read_bytes() if path.suffix == ".csv" else ast.dump(_without_prose(path)).encode())
+        digest.update(f"{path.relative_to(package).as_posix()}\n".encode())
+        digest.update(path.read_bytes() if path.suffix == ".csv" else ast.dump(_without_prose(path)).encode())
     return digest.hexdigest()
 
 

@@ -9,7 +9,6 @@ with the name of the input.
 
 from solvers.coupling import crowning, model, orbit
 from solvers.coupling.crowning import Recommendation
-from solvers.coupling.former import CouplingDesign, CouplingOil, Load, OperatingPoint, OperatingRange
 from solvers.coupling.inputs import (
     Coupling,
     CouplingInputs,
@@ -32,18 +31,13 @@ recommend = guarded(crowning.recommend, unusual_values)
 
 __all__ = [
     "Coupling",
-    "CouplingDesign",
     "CouplingInputs",
-    "CouplingOil",
     "CouplingResult",
     "Friction",
-    "Load",
     "Lubricant",
     "MixedFrictionCurve",
     "MixedFrictionTable",
     "ModelOptions",
-    "OperatingPoint",
-    "OperatingRange",
     "Operation",
     "OrbitResult",
     "Recommendation",

@@ -9,7 +9,6 @@ our own, except where a source is named.
 """
 
 from solvers.drive_train import states, warm_up
-from solvers.drive_train.former import ShaftBearing
 from solvers.drive_train.inputs import (
     Alignment,
     Arrangement,
@@ -43,7 +42,6 @@ __all__ = [
     "LinearBearing",
     "RigidBearing",
     "Shaft",
-    "ShaftBearing",
     "ShaftSection",
     "UnitCoupling",
     "UnitWarmUp",

@@ -9,7 +9,6 @@ Source: Xue, Zhang, Wang, "The Load Distribution with Modification and Misalignm
 Lubrication Simulation of Helical Gears", Global J. of Researches in Engineering A 20(1), 2020 ("the paper").
 """
 
-from solvers.former_oils import OilChoice
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.guards import guarded
 from solvers.lubricants import Lubricant
@@ -44,7 +43,6 @@ __all__ = [
     "Lubricant",
     "Model",
     "Modifications",
-    "OilChoice",
     "OilSheet",
     "Resolution",
     "Scuffing",

@@ -27,7 +27,7 @@ from app.pages.studies import PAGES
 from app.pages.studies.page import checked, file
 from app.settings import Settings
 from app.studies.runner import Clock, Line
-from solvers.published import STATEMENTS, Row
+from benchmarks.published import STATEMENTS, Row
 from tests.manual.pictures import figures_of, studies_of
 from tests.support.pools import InlinePool
 

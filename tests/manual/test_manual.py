@@ -177,14 +177,6 @@ def test_a_chapter_that_is_not_there(client: httpx.Client) -> None:
     assert client.get("/manual/alchemy").status_code == 404
 
 
-def test_pages_about_a_model_have_become_chapters(client: httpx.Client) -> None:
-    for model in ("coupling", "pumping", "scuffing", "drive-train"):
-        answer = client.get(f"/{model}/about")
-        assert (answer.status_code, answer.headers["location"]) == (308, f"/manual/{model}")
-        assert chapters()[model].answers
-    assert client.get("/alchemy/about").status_code == 404
-
-
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 def test_every_calculation_has_its_chapter_and_method(calculation: Calculation) -> None:
     method = method_of(chapter_of(calculation))

@@ -15,9 +15,9 @@ from math import cos, radians
 import numpy as np
 import pytest
 
+from benchmarks.published.bloch import DIAMETER, END_CONTACT, FACE, TORQUE, bloch
 from solvers.coupling.inputs import MixedFrictionCurve
 from solvers.coupling.lubrication import mixed_friction, regime_friction
-from solvers.published.bloch import DIAMETER, END_CONTACT, FACE, TORQUE, bloch
 
 COSINE = cos(radians(20.0))
 SOFT, STIFF = 1e5, 1e14  # tooth stiffness [N/m]: equal loads, load on the worst teeth alone

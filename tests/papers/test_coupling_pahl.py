@@ -10,6 +10,18 @@ from math import asin, atan2, cos, degrees, pi, radians, sin, sqrt, tan
 import numpy as np
 import pytest
 
+from benchmarks.published.pahl import (
+    CREEP,
+    HEAVY,
+    PITCH_RADIUS,
+    SLIGHT,
+    TEETH,
+    film,
+    harmonic_pitch_errors,
+    overlap_one,
+    pahl,
+    pahl_coupling,
+)
 from solvers.coupling.crowning import recommend
 from solvers.coupling.inputs import (
     CouplingInputs,
@@ -26,18 +38,6 @@ from solvers.coupling.model import solve
 from solvers.coupling.orbit import solve_orbit
 from solvers.coupling.results import AxialThrust, KinematicCurves, Lubrication
 from solvers.coupling.tooth_loads import centred_loads
-from solvers.published.pahl import (
-    CREEP,
-    HEAVY,
-    PITCH_RADIUS,
-    SLIGHT,
-    TEETH,
-    film,
-    harmonic_pitch_errors,
-    overlap_one,
-    pahl,
-    pahl_coupling,
-)
 from tests.support.changes import changed
 from tests.support.couplings import random_pitch_errors
 

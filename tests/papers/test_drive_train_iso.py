@@ -11,12 +11,12 @@ from math import cos, pi, radians
 import numpy as np
 import pytest
 
+from benchmarks.published.standard_gears import EXAMPLE_1
 from solvers.drive_train.gap.balance import uniform_force
 from solvers.drive_train.inputs import Arrangement, DriveTrainInputs, Effects, RigidBearing, Shaft, ShaftSection
 from solvers.drive_train.outcome import outcome
 from solvers.drive_train.prepared import prepare
 from solvers.drive_train.shafts.shaft import second_moment, shaft_model
-from solvers.published.standard_gears import EXAMPLE_1
 from solvers.scuffing.inputs import Load, LoadDistributionInputs
 from tests.support.changes import changed
 from tests.support.drive_trains import turbo_gear

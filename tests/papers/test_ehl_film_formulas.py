@@ -8,13 +8,13 @@ from math import sqrt
 
 import pytest
 
+from benchmarks.published.xue import POINT_A
 from solvers.contact import hertz
 from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model
 from solvers.contact.ehl.model import solve
 from solvers.contact.ehl.problem import moes_central_film, moes_minimum_film
 from solvers.lubricants import Lubricant, PressureViscosityLaw
 from solvers.materials import Solid
-from solvers.published.xue import POINT_A
 
 MODULUS = hertz.reduced_modulus(Solid(), Solid())
 RADIUS = 0.01

@@ -13,11 +13,11 @@ from math import cos
 import numpy as np
 import pytest
 
+from benchmarks.published.xue import PAPER_SPEED, POINT_A, paper_gears
 from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, solve_path
 from solvers.contact.ehl.model import solve
 from solvers.gears.pair import gear_pair
 from solvers.lubricants import Lubricant
-from solvers.published.xue import PAPER_SPEED, POINT_A, paper_gears
 from tests.support.line_contacts import blok_flash
 from tests.support.outcomes import codes
 

@@ -6,13 +6,13 @@ The numbers come from a public implementation and from an FVA program.
 import numpy as np
 import pytest
 
-from solvers.published import micropitting
-from solvers.published.micropitting import ASKED_FOR, PRINTED, ZERO, mineral
+from benchmarks.published import micropitting
+from benchmarks.published.micropitting import ASKED_FOR, PRINTED, ZERO, mineral
 from solvers.scuffing.inputs import FlankSurfaces, MicropittingCheck
 from solvers.scuffing.micropitting.oil import density, pressure_viscosity, viscosity
 from solvers.scuffing.micropitting.oil_test import film_of_test, permissible_ratio
 
-REST = [1, 2, 4, 5]  # all points but A, C and E, whose printed numbers are statements of solvers/published
+REST = [1, 2, 4, 5]  # all points but A, C and E, whose printed numbers are statements of benchmarks/published
 CASES = {
     "test gears, stage 8": (
         micropitting.gears_of_the_test,

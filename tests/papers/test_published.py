@@ -1,8 +1,8 @@
-"""Every published statement in the comparison table of the pages holds."""
+"""Every published statement holds."""
 
 import pytest
 
-from solvers.published import STATEMENTS, Statement
+from benchmarks.published import STATEMENTS, Statement
 
 NAMED = [
     pytest.param(statement, id=f"{model}-{number}")

@@ -10,9 +10,7 @@ from math import log, log2, pi, sqrt
 import numpy as np
 import pytest
 
-from solvers.gears.inputs import GearPairInputs
-from solvers.materials import Solid
-from solvers.published.milian import (
+from benchmarks.published.milian import (
     CASE_1,
     CASE_2,
     CHAIN,
@@ -27,6 +25,8 @@ from solvers.published.milian import (
     pinion,
     run,
 )
+from solvers.gears.inputs import GearPairInputs
+from solvers.materials import Solid
 from solvers.pumping import Ambient, ChokingInputs, ChokingSpeeds, PumpingInputs, PumpingModel, PumpingSetup
 from solvers.pumping.choking import choking_speeds
 from solvers.pumping.flow.nozzle import choked_mass_flux, gas, mass_flux

@@ -6,9 +6,9 @@ from math import degrees, hypot, pi
 import numpy as np
 import pytest
 
+from benchmarks.published.milian import CASE_1, CASE_2, TABLE_1, TIP, pinion, run
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.pair import gear_pair
-from solvers.published.milian import CASE_1, CASE_2, TABLE_1, TIP, pinion, run
 from solvers.pumping.inputs import Gap
 from solvers.pumping.space.section import section
 from solvers.pumping.space.stroke import StrokeTable, stroke_table

@@ -11,6 +11,7 @@ from math import cos
 import numpy as np
 import pytest
 
+from benchmarks.published.xue import PAPER_SPEED, paper_gears, paper_pair
 from solvers.contact import hertz
 from solvers.contact.ehl import Contact
 from solvers.contact.film import dowson_higginson_minimum, thickness_ratio, thickness_regime
@@ -18,7 +19,6 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import reduced_radius
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
-from solvers.published.xue import PAPER_SPEED, paper_gears, paper_pair
 from solvers.scuffing.inputs import ScuffingInputs, Temperatures
 from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.results import LoadDistribution

@@ -12,11 +12,11 @@ from math import radians
 import numpy as np
 import pytest
 
+from benchmarks.published import xue
+from benchmarks.published.xue import CALIBRATED_MODEL, PAPER_MODEL, PAPER_MODIFICATIONS, paper_gears, paper_pair
 from solvers.contact import hertz
 from solvers.gears.pair import gear_pair, path_of_contact, reduced_radius
 from solvers.materials import Solid
-from solvers.published import xue
-from solvers.published.xue import CALIBRATED_MODEL, PAPER_MODEL, PAPER_MODIFICATIONS, paper_gears, paper_pair
 from solvers.scuffing.contact_lines import contact_lengths
 from solvers.scuffing.inputs import Model
 from solvers.scuffing.model import solve as solve_load_distribution

@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from benchmarks.published.standard_gears import EXAMPLE_1, example_stress, fzg_pressure
+from benchmarks.published.xue import PAPER_LOAD, paper_pair
 from solvers.contact import hertz
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair, path_of_contact
 from solvers.materials import Solid
-from solvers.published.standard_gears import EXAMPLE_1, example_stress, fzg_pressure
-from solvers.published.xue import PAPER_LOAD, paper_pair
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, Model, Modifications, Resolution, angular_speed
 from solvers.scuffing.load_balance import line_loads
 from solvers.scuffing.mesh_results import standard_stiffness
@@ -27,7 +27,7 @@ STEEL = Solid()
 MODULUS = hertz.reduced_modulus(STEEL, STEEL)
 UNIFORM = Model(tooth_stiffness="parabola", parabola_end_ratio=1.0, contact="linear")
 
-# all stages but 6 and 12, which are statements of solvers/published
+# all stages but 6 and 12, which are statements of benchmarks/published
 PITCH_PRESSURES = (144.8, 295.0, 473.2, 621.2, 773.2, 1079.3, 1232.9, 1385.1, 1538.5, 1691.0)
 
 

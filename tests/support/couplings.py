@@ -5,11 +5,11 @@ from math import pi, radians
 import numpy as np
 from numpy.random import Generator
 
+from benchmarks.published.pahl import TEETH
 from solvers.arrays import FloatArray
 from solvers.coupling.inputs import Coupling, CouplingInputs, Friction, Lubricant, ModelOptions, Operation
 from solvers.coupling.kinematics import flank_normals, mesh_motion, tooth_geometry, tooth_positions
 from solvers.coupling.tooth_loads import ToothLoads, floating_loads
-from solvers.published.pahl import TEETH
 
 
 def random_pitch_errors(seed: int, rms: float = 2e-6) -> tuple[float, ...]:

@@ -1,7 +1,6 @@
 """The manual: its contents, its chapters, and the table of all fields."""
 
 from fastapi import APIRouter, HTTPException, Request, Response
-from fastapi.responses import RedirectResponse
 from fastapi.routing import APIRoute
 from pydantic import BaseModel
 
@@ -42,11 +41,3 @@ def chapter(http: Request, name: str) -> Response:
     if name not in NAMES:
         raise HTTPException(404, f"The manual has no such chapter. The chapters are {', '.join(NAMES)}, functions")
     return html(fields_page(root_of(http), OTHER_ANSWERS) if name == FIELDS else chapter_page(root_of(http), name))
-
-
-@router.get("/{model}/about")
-def about(http: Request, model: str) -> Response:
-    """Redirect from the former address of a chapter."""
-    if model not in NAMES:
-        raise HTTPException(404, f"The manual has no chapter on {model}")
-    return RedirectResponse(f"{root_of(http)}/manual/{model}", 308)

@@ -2,8 +2,8 @@
 
 Data pass through the modules in this order: inputs, checks -> problem, grid, linear_algebra -> shear -> rheology ->
 flow -> reynolds, heat -> state -> temperature -> newton -> continuation -> measures, refinement -> results, notices.
-`model.solve` solves one contact, and `path.solve_path` solves a sequence of contacts. `equations` contains the discrete
-problem in plain NumPy, as the specification of the compiled kernels.
+`model.solve` solves one contact, `path.solve_path` a sequence of contacts.
+`tests/support/line_contact_equations.py` states the discrete problem in plain NumPy; the kernels are compared with it.
 """
 
 from solvers.contact.ehl import model

@@ -8,9 +8,8 @@ mid_film_stress   the shear stress half way across a column, for the sliding spe
 shear_rates       the shear rate of every interval at the given stress, and its derivative with respect to the stress
 uniform_shear     the flow and the mid-film stress in a film at one temperature
 
-A further law needs a name in `inputs.Rheology` and a branch in each of these four functions. In the module `equations`,
-the functions `effective_fluidity`, `mid_film_stress` and `uniform_columns` also need a branch. The tests compare every
-law of `inputs.Rheology` with `equations`.
+A further law needs a name in `inputs.Rheology`, a branch in each of these four functions, and one in
+`effective_fluidity`, `mid_film_stress` and `uniform_columns` of `tests/support/line_contact_equations.py`.
 """
 
 from typing import get_args

@@ -27,7 +27,6 @@ from solvers.scuffing.safety_results import (
     ScuffingPath,
     ThermalPath,
 )
-from solvers.scuffing.thermal.practice import scuffing_risk
 
 
 class CheckedLine(NamedTuple):
@@ -245,22 +244,4 @@ def path_notices(
                 rank="note",
             )
         )
-    if safety is not None and safety.blok_factor is not None:
-        notices += _other_verdict(safety.blok_factor, safety.feature_line_factor)
     return tuple(notices)
-
-
-def _other_verdict(flank: float, feature_line: float | None) -> list[Notice]:
-    """Return a note if the risk class of the feature line differs from the risk class of the flank.
-
-    Also return a note if the feature line has no safety factor. The note concerns users of versions before 0.3, which
-    judged only the feature line.
-    """
-    if feature_line is not None and scuffing_risk(feature_line) == scuffing_risk(flank):
-        return []
-    along = "the teeth stay as cool as the oil" if feature_line is None else f"the safety is {feature_line:.2f}"
-    message = (
-        f"since version 0.3 the stated safety is the smallest safety on the whole flank, which is {flank:.2f}; along "
-        f"the feature line {along}"
-    )
-    return [Notice("whole_flank", message, "model.line", rank="note")]

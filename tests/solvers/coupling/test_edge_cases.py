@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
+from benchmarks.published.pahl import pahl_coupling
 from solvers import coupling
 from solvers.coupling.crowning import Recommendation, recommend
 from solvers.coupling.inputs import (
@@ -25,7 +26,6 @@ from solvers.coupling.model import solve
 from solvers.coupling.orbit import solve_orbit
 from solvers.coupling.results import CouplingResult
 from solvers.errors import NoSolution, SolverError
-from solvers.published.pahl import pahl_coupling
 from tests.support.changes import changed
 from tests.support.outcomes import assert_finite, codes, refused
 from tests.support.properties import examples

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from benchmarks.published.pahl import pahl_coupling
 from solvers.coupling.inputs import Friction, InletModel, MixedFrictionCurve, MixedFrictionTable, ModelOptions
 from solvers.coupling.lubrication import (
     UNBOUNDED_LOAD,
@@ -18,7 +19,6 @@ from solvers.coupling.lubrication import (
     regime_friction,
 )
 from solvers.coupling.model import solve
-from solvers.published.pahl import pahl_coupling
 from tests.support.changes import changed
 from tests.support.properties import examples
 

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import assume
 from hypothesis import strategies as st
 
+from benchmarks.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from solvers.coupling.inputs import CouplingInputs, ModelOptions
 from solvers.coupling.model import solve
-from solvers.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from tests.support.changes import changed, scaled
 from tests.support.couplings import random_pitch_errors
 from tests.support.plain_coupling import PlainMesh, midpoints

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from hypothesis import strategies as st
 
+from benchmarks.published.pahl import harmonic_pitch_errors, pahl_coupling
 from solvers.coupling import kinematics, orbit
 from solvers.coupling.inputs import CouplingInputs
 from solvers.coupling.model import solve
 from solvers.coupling.orbit import solve_orbit
 from solvers.coupling.tooth_loads import ToothLoads, floating_loads
-from solvers.published.pahl import harmonic_pitch_errors, pahl_coupling
 from tests.support.changes import changed
 from tests.support.coupling_checks import check_orbit_resolution_of
 from tests.support.couplings import floating, random_pitch_errors

@@ -6,10 +6,10 @@ from math import radians
 import numpy as np
 import pytest
 
+from benchmarks.published.pahl import pahl_coupling
 from solvers.coupling.crowning import at_misalignment, crowning_state, crowning_window, recommend
 from solvers.coupling.inputs import ModelOptions, RecommendationInputs
 from solvers.coupling.model import solve
-from solvers.published.pahl import pahl_coupling
 from tests.support.couplings import random_pitch_errors
 from tests.support.outcomes import codes, refused
 

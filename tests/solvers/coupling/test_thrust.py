@@ -7,12 +7,12 @@ import pytest
 from hypothesis import strategies as st
 from scipy.optimize import root
 
+from benchmarks.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from solvers.coupling.inputs import Arrangement, CouplingInputs, KinematicModel, ModelOptions, tilt_of_offset
 from solvers.coupling.kinematics import rotor_samples, tooth_geometry
 from solvers.coupling.model import solve
 from solvers.coupling.results import SelfInducedThrust
 from solvers.coupling.sleeve import sleeve_equilibrium, two_meshes
-from solvers.published.pahl import PITCH_RADIUS, TEETH, pahl_coupling
 from tests.support.changes import changed
 from tests.support.couplings import random_pitch_errors
 from tests.support.outcomes import unsolved

@@ -8,10 +8,10 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from scipy.optimize import brentq, minimize
 
+from benchmarks.published.pahl import PITCH_RADIUS, TEETH, harmonic_pitch_errors, pahl_coupling
 from solvers.coupling.inputs import Coupling, CouplingInputs, ModelOptions, Operation
 from solvers.coupling.model import solve
 from solvers.coupling.tooth_loads import ToothLoads, turn_to_torque
-from solvers.published.pahl import PITCH_RADIUS, TEETH, harmonic_pitch_errors, pahl_coupling
 from tests.support.changes import changed
 from tests.support.couplings import floating, random_pitch_errors, spread
 from tests.support.plain_coupling import PlainMesh

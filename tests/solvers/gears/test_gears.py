@@ -5,11 +5,11 @@ from math import radians
 
 import pytest
 
+from benchmarks.published.xue import paper_gears
 from solvers.gears.gear import rack_tip_radius
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.notices import pair_notices
 from solvers.gears.pair import gear_pair, meshing_path
-from solvers.published.xue import paper_gears
 from tests.support.gear_pairs import FZG_A, INCH_PAIR, UNDERCUT_PAIR
 from tests.support.outcomes import refused
 

@@ -8,10 +8,10 @@ import pytest
 from hypothesis import assume
 from hypothesis import strategies as st
 
+from benchmarks.published.milian import CASE_1, CHAIN, GROOVE, PRINTED, SPEED_1, TABLE_1, pinion, run
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair
-from solvers.published.milian import CASE_1, CHAIN, GROOVE, PRINTED, SPEED_1, TABLE_1, pinion, run
 from solvers.pumping import (
     Ambient,
     ChokingInputs,

@@ -10,12 +10,12 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 from shapely import Polygon
 
+from benchmarks.published.milian import CASE_1, CASE_2, TABLE_1
 from solvers.arrays import FloatArray
 from solvers.errors import InvalidInput
 from solvers.gears.gear import fillet_point, fillet_sector_area, root_profile
 from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import PathOfContact, gear_pair, meshing_path
-from solvers.published.milian import CASE_1, CASE_2, TABLE_1
 from solvers.pumping.inputs import Gap, PumpingSetup
 from solvers.pumping.space.section import section
 from solvers.pumping.space.stroke import StrokeTable, stroke_table

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
+from benchmarks.published.milian import CASE_1, SPEED_1, pinion
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.notices import pair_notices
 from solvers.gears.pair import gear_pair, meshing_path
 from solvers.notices import Notice
-from solvers.published.milian import CASE_1, SPEED_1, pinion
 from solvers.pumping import Gap, Groove, PumpingInputs, PumpingModel, PumpingSetup, Spaces
 from solvers.pumping.lead_correction import EXPANSION, lead_correction
 from solvers.pumping.model import solve_on_slices

@@ -8,10 +8,10 @@ from math import pi
 import numpy as np
 import pytest
 
+from benchmarks.published.milian import CASE_1, TABLE_1
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import meshing_path
-from solvers.published.milian import CASE_1, TABLE_1
 from solvers.pumping import (
     Ambient,
     ChokingInputs,

@@ -7,9 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
+from benchmarks.published.xue import PAPER_LOAD, paper_gears, paper_pair
 from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
-from solvers.published.xue import PAPER_LOAD, paper_gears, paper_pair
 from solvers.scuffing.inputs import (
     Load,
     LoadDistributionInputs,

@@ -8,12 +8,12 @@ import pytest
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from benchmarks.published.xue import PAPER_LOAD, PAPER_MODEL, PAPER_MODIFICATIONS, paper_gears, paper_pair
 from solvers.contact.hertz import half_width, reduced_modulus
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import gear_pair, path_of_contact, reduced_radius
 from solvers.materials import Solid
-from solvers.published.xue import PAPER_LOAD, PAPER_MODEL, PAPER_MODIFICATIONS, paper_gears, paper_pair
 from solvers.scuffing.contact_slices import gather, slice_table
 from solvers.scuffing.inputs import LeadCurve, LoadDistributionInputs, Model, Modifications, Resolution
 from solvers.scuffing.model import solve as solve_load_distribution

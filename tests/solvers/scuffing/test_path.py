@@ -7,13 +7,13 @@ from functools import cache
 import numpy as np
 import pytest
 
+from benchmarks.published.xue import PAPER_LOAD, paper_pair
 from solvers.contact import ehl
 from solvers.contact.ehl import continuation, path
 from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
-from solvers.published.xue import PAPER_LOAD, paper_pair
 from solvers.scuffing.inputs import (
     Load,
     LoadDistributionInputs,

@@ -8,9 +8,9 @@ from math import radians
 import numpy as np
 import pytest
 
+from benchmarks.published.xue import paper_gears, paper_pair
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import PathOfContact, meshing_path
-from solvers.published.xue import paper_gears, paper_pair
 from solvers.scuffing.inputs import LoadDistributionInputs, Model, Modifications, Resolution
 from solvers.scuffing.model import solve as solve_load_distribution
 from solvers.scuffing.modification import gap

@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from benchmarks.published.xue import POINT_A
 from solvers.contact.ehl import LineContactInputs, LineContactResult, Model, Temperatures, continuation
 from solvers.contact.ehl.model import solve
 from solvers.contact.ehl.rheology import STRESS_LIMIT
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
-from solvers.published.xue import POINT_A
 from tests.support.line_contacts import at_pressure, grid_contacts, random_contacts
 from tests.support.outcomes import assert_finite, codes, refused
 

@@ -17,7 +17,6 @@ from solvers.contact.ehl import (
     LineContactInputs,
     Model,
     Rheology,
-    equations,
     heat,
     newton,
     reynolds,
@@ -25,12 +24,13 @@ from solvers.contact.ehl import (
     temperature,
 )
 from solvers.contact.ehl.continuation import budget_for, solve_cold
-from solvers.contact.ehl.equations import Carried, Residual
 from solvers.contact.ehl.grid import Grid
 from solvers.contact.ehl.model import resolution_for
 from solvers.contact.ehl.problem import Problem, groups, problem
 from solvers.contact.ehl.state import State, Work, work_arrays
 from solvers.lubricants import Lubricant
+from tests.support import line_contact_equations as equations
+from tests.support.line_contact_equations import Carried, Residual
 from tests.support.line_contacts import at_pressure, random_contacts
 from tests.support.properties import first
 

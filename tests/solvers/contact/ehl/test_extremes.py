@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
+from benchmarks.published.xue import POINT_A
 from solvers.contact import hertz
 from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, Temperatures, check
 from solvers.contact.ehl.checks import THICKEST_FILM
@@ -17,7 +18,6 @@ from solvers.contact.ehl.problem import expected_gap
 from solvers.errors import InvalidInput
 from solvers.lubricants import Lubricant
 from solvers.materials import Solid
-from solvers.published.xue import POINT_A
 from tests.support.changes import changed
 from tests.support.outcomes import assert_finite
 from tests.support.properties import examples, first

@@ -6,11 +6,11 @@ from time import process_time
 import numpy as np
 import pytest
 
+from benchmarks.published.xue import POINT_A
 from solvers.contact.ehl import Contact, LineContactInputs, LineContactResult, Model, Temperatures, refinement
 from solvers.contact.ehl.model import solve
 from solvers.contact.ehl.refinement import departure, strip_integral
 from solvers.lubricants import Lubricant
-from solvers.published.xue import POINT_A
 from tests.support.changes import changed, value_at
 from tests.support.line_contacts import at_pressure, random_contacts
 from tests.support.outcomes import codes

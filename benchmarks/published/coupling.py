@@ -2,9 +2,9 @@
 
 from math import asin, pi, radians
 
-from solvers.published import pahl
-from solvers.published.bloch import END_CONTACT, bloch
-from solvers.published.statement import INDEPENDENT, Says, Statement
+from benchmarks.published import pahl
+from benchmarks.published.bloch import END_CONTACT, bloch
+from benchmarks.published.statement import INDEPENDENT, Says, Statement
 
 PAHL = "Pahl 1978"
 BLOCH = "Bloch, Improving Machinery Reliability, pp. 208-210"

@@ -3,8 +3,8 @@
 from dataclasses import replace
 from math import log2
 
-from solvers.published.milian import CASE_1, CASE_2, GROOVE, PRINTED, SPEED_1, SPEED_2, TABLE_1, TIP, pinion, run
-from solvers.published.statement import INDEPENDENT, Says, Statement
+from benchmarks.published.milian import CASE_1, CASE_2, GROOVE, PRINTED, SPEED_1, SPEED_2, TABLE_1, TIP, pinion, run
+from benchmarks.published.statement import INDEPENDENT, Says, Statement
 from solvers.pumping import Flow, Groove, PumpingModel, PumpingResult
 
 MILIAN = "Milian 2004"

@@ -2,9 +2,9 @@
 
 from functools import partial
 
-from solvers.published import xue
-from solvers.published.standard_gears import example_stiffness, example_stress, fzg_pressure
-from solvers.published.statement import Says, Statement
+from benchmarks.published import xue
+from benchmarks.published.standard_gears import example_stiffness, example_stress, fzg_pressure
+from benchmarks.published.statement import Says, Statement
 from solvers.scuffing.inputs import Model
 
 XUE = "Xue 2020"

@@ -7,11 +7,11 @@ from collections.abc import Callable
 from functools import cache, partial
 from math import pi
 
+from benchmarks.published.statement import Says, Statement
 from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import meshing_path
 from solvers.materials import Solid
 from solvers.oils import OilSheet
-from solvers.published.statement import Says, Statement
 from solvers.scuffing.inputs import Load, LoadDistributionInputs
 from solvers.scuffing.micropitting import oil_test
 from solvers.scuffing.micropitting.standard import StandardFilms, solve_standard

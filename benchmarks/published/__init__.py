@@ -1,10 +1,10 @@
 """Statements with numbers from papers, books and standards, and the numbers that the solvers compute for comparison.
 
-`STATEMENTS` holds all statements. Both the pages of the service and the tests use `STATEMENTS`.
+Tests, manual and `benchmarks.papers` share them.
 """
 
-from solvers.published import coupling, micropitting, pumping, scuffing
-from solvers.published.statement import Row, Statement
+from benchmarks.published import coupling, micropitting, pumping, scuffing
+from benchmarks.published.statement import Row, Statement
 
 STATEMENTS: dict[str, tuple[Statement, ...]] = {
     "coupling": coupling.STATEMENTS,
