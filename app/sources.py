@@ -1,4 +1,4 @@
-"""The hash of the solvers' sources, and the entries of the changelog about changed results."""
+"""The hash of the solvers' sources, and what the changelog says of changed numbers."""
 
 import re
 from importlib.resources import files
@@ -7,19 +7,15 @@ from solvers.digest import package_digest
 
 
 def changes_since(sources: str) -> list[str]:
-    """Return the newest entries of the changelog if the solvers have changed since a calculation; else an empty list.
-
-    `sources` is the hash of the solvers' sources at the time of the calculation, or the beginning of this hash. If
-    `sources` is empty, the hash is not known, and the list is empty.
-    """
+    """Recent changes if a calculation was made with other sources; `sources` is the beginning of their hash, or empty."""
     return [] if SOURCES.startswith(sources) else recent_changes()
 
 
 def recent_changes() -> list[str]:
-    """Return the entries of the newest section of the changelog, newest first. Hashes in the text are left out."""
-    section = files("app").joinpath("CHANGELOG.md").read_text("utf-8").split("\n## ")[1]
-    entries = re.split(r"^\* ", section, flags=re.MULTILINE)[1:]
-    return [" ".join(re.sub(r"`[0-9a-f]{64}`", "", entry).replace("`", "").split()) for entry in reversed(entries)]
+    """What moved numbers in the newest version, newest first."""
+    numbers = files("app").joinpath("CHANGELOG.md").read_text("utf-8").partition("### Numbers")[2].partition("\n#")[0]
+    entries = re.split(r"^\* ", numbers, flags=re.MULTILINE)[1:]
+    return [" ".join(entry.replace("`", "").split()) for entry in reversed(entries)]
 
 
 SOURCES = package_digest()

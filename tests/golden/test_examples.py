@@ -5,8 +5,8 @@ is correct; the tests in tests/papers do. After an intended change, run
 
 `python -m tests.golden.test_examples "what was changed, which numbers moved, why"`
 
-This command writes the numbers to numbers.json and appends an entry to CHANGELOG.md. Without a text, the command
-corrects the hash in the last entry. Both files belong to the commit.
+This command writes the numbers to numbers.json, appends the text to the list "Numbers" of the newest version in
+CHANGELOG.md and renews the version's hash; without a text it only renews the hash. Both files belong to the commit.
 """
 
 import itertools
@@ -79,27 +79,19 @@ def test_numbers_are_as_accepted(name: str) -> None:
         assert agrees(found[path], value), f"{path}: {found[path]}, accepted {value}"
 
 
-def newest_section() -> str:
-    return CHANGELOG.read_text("utf-8").split("\n## ")[1].rstrip()
-
-
 def hash_of_numbers() -> str:
     return sha256(NUMBERS.read_bytes()).hexdigest()
 
 
-def test_the_last_entry_of_the_changelog_is_about_these_numbers() -> None:
-    assert newest_section().endswith(f"`{hash_of_numbers()}`"), "see the docstring of this module"
+def test_the_changelog_is_about_these_numbers() -> None:
+    assert sections()[0][1] == hash_of_numbers(), "see the docstring of this module"
 
 
 def sections() -> list[tuple[tuple[int, ...], str]]:
-    """Return the version of every section of the changelog, and the last hash of numbers in this section.
-
-    The newest section comes first.
-    """
+    """Return the version and the hash of every section of the changelog, newest first."""
     found = [part.partition("\n") for part in CHANGELOG.read_text("utf-8").split("\n## ")[1:]]
-    return [
-        (tuple(map(int, title.split("."))), re.findall(r"`([0-9a-f]{64})`", entries)[-1]) for title, _, entries in found
-    ]
+    hashes = [re.findall(r"`([0-9a-f]{64})`", entries) for _, _, entries in found]
+    return [(tuple(map(int, title.split("."))), only) for (title, *_), (only,) in zip(found, hashes, strict=True)]
 
 
 def test_the_newest_section_is_the_version_of_the_project() -> None:
@@ -114,10 +106,7 @@ def test_moved_numbers_are_at_least_a_minor_version() -> None:
 
 
 def accept(entry: str) -> None:
-    """Write the numbers that differ by more than rounding, and write `entry` into the changelog.
-
-    If `entry` is empty, replace only the hash in the last entry.
-    """
+    """Write the numbers that differ by more than rounding, renew the hash of the newest version and append `entry`."""
     known = accepted()
     content = {}
     for name in sorted(examples()):
@@ -127,13 +116,12 @@ def accept(entry: str) -> None:
             for path, value in numbers_of(name).items()
         }
     NUMBERS.write_text(json.dumps(content, indent=1, ensure_ascii=False) + "\n", "utf-8")
-    before = newest_section()
+    changelog = re.sub(r"`[0-9a-f]{64}`", f"`{hash_of_numbers()}`", CHANGELOG.read_text("utf-8"), count=1)
     if entry:
         text = textwrap.fill(entry, 120, initial_indent="* ", subsequent_indent="  ")
-        after = f"{before}\n{text}\n  `{hash_of_numbers()}`"
-    else:
-        after = re.sub(r"[0-9a-f]{64}`$", f"{hash_of_numbers()}`", before)
-    CHANGELOG.write_text(CHANGELOG.read_text("utf-8").replace(before, after, 1), "utf-8")
+        numbers, service, rest = changelog.partition("\n\n### Service\n")
+        changelog = f"{numbers}\n{text}{service}{rest}"
+    CHANGELOG.write_text(changelog, "utf-8")
 
 
 if __name__ == "__main__":
