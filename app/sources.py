@@ -7,7 +7,7 @@ from solvers.digest import package_digest
 
 
 def changes_since(sources: str) -> list[str]:
-    """Recent changes if a calculation was made with other sources; `sources` is the beginning of their hash, or empty."""
+    """Recent changes if a calculation was made with other sources; `sources` begins their hash, or is empty."""
     return [] if SOURCES.startswith(sources) else recent_changes()
 
 

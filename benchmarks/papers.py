@@ -5,7 +5,7 @@ Run from the project's root: python -m benchmarks.papers
 
 from benchmarks.published import STATEMENTS, Row
 
-COLUMNS = ("statement", "source", "printed", "computed", "unit", "deviation", "remark")
+COLUMNS = ("statement", "source", "basis", "expected", "computed", "unit", "deviation", "remark")
 
 
 def main() -> None:
@@ -20,7 +20,7 @@ def main() -> None:
 
 def _line(row: Row) -> str:
     deviation = "" if row.deviation is None else f"{row.deviation:+.2%}"
-    cells = (row.statement, row.source, row.printed, f"{row.computed:.5g}", row.unit, deviation, row.remark)
+    cells = (row.statement, row.source, row.basis, row.expected, f"{row.computed:.5g}", row.unit, deviation, row.remark)
     return "| " + " | ".join(cell.replace("|", r"\|") for cell in cells) + " |"
 
 

@@ -80,9 +80,7 @@ STATEMENTS: tuple[Statement, ...] = (
         "between the thermal and the isothermal film of the printed equations, 0.33 and 0.52",
     ),
     Says(f"{XUE}, Fig. 20", "isothermal film at A").above(0.42, "µm", lambda: xue.film("newtonian", thermal=False)),
-    Says(f"{XUE}, Fig. 21", "middle of the film at A").equals(
-        466.9, "K", xue.mid_film_temperature, 5e-3, "the paper shows a map; the number is an independent calculation's"
-    ),
+    Says(f"{XUE}, Fig. 21", "middle of the film at A").calculated(466.9, "K", xue.mid_film_temperature, 5e-3),
     Says(f"{XUE}, Fig. 23", "film thinner than the formula's along the whole path: largest ratio").below(
         1.0, "-", xue.film_over_formula
     ),

@@ -28,6 +28,7 @@ from app.pages.studies.page import checked, file
 from app.settings import Settings
 from app.studies.runner import Clock, Line
 from benchmarks.published import STATEMENTS, Row
+from benchmarks.published.statement import Basis
 from tests.manual.pictures import figures_of, studies_of
 from tests.support.pools import InlinePool
 
@@ -36,6 +37,11 @@ BLOCK = re.compile(r"<!-- generated: ([\w -]+) -->\n(.*?)<!-- end -->", re.DOTAL
 NUMBERED = re.compile(
     r"(?:^<a id=\"eq-[\w.-]+\"></a>\n\n)?(^\$\$\n(?:(?!\$\$).)*?\\tag\{([^}]+)\}\n\$\$)", re.MULTILINE | re.DOTALL
 )
+BASES: dict[Basis, str] = {
+    "printed": "Numbers that the source prints",
+    "bound": "Words, curves and ranges of the source, as bounds",
+    "independent calculation": "Numbers that no source prints, from an independent calculation or a closed form",
+}
 ROUNDING = 1e-9
 STUDY_POINTS, DEADLINE_S = 1000, 30.0
 DEFAULTS = {
@@ -51,9 +57,16 @@ def table(header: tuple[str, ...], rows: Iterator[tuple[str, ...]]) -> str:
 
 
 def comparison(model: str) -> str:
-    """Return the table that compares the printed numbers of a model with the computed numbers."""
-    header = ("statement", "source", "printed", "computed", "unit", "deviation", "remark")
-    return table(header, (_compared(statement.row()) for statement in STATEMENTS[model]))
+    """Return a table for each basis of comparison: what is printed, what is a bound, what was calculated elsewhere."""
+    rows = [statement.row() for statement in STATEMENTS[model]]
+    tables = []
+    for basis, lead in BASES.items():
+        some = [row for row in rows if row.basis == basis]
+        remarked = any(row.remark for row in some)
+        header = ("statement", "source", basis, "computed", "unit", "deviation", *(["remark"] if remarked else []))
+        if some:
+            tables.append(f"{lead}:\n\n" + table(header, (_compared(row)[: len(header)] for row in some)))
+    return "\n".join(tables)
 
 
 def _compared(row: Row) -> tuple[str, ...]:
@@ -65,7 +78,7 @@ def _compared(row: Row) -> tuple[str, ...]:
     deviation = outcome if row.deviation is None else f"{100 * row.deviation:+.1f} %"
     deviation = deviation.replace("-0.0", "0.0").replace("+0.0", "0.0")
     computed = f"{row.computed if abs(row.computed) > ROUNDING else 0.0:.4g}"
-    return row.statement, row.source, row.printed, computed, row.unit, deviation, row.remark
+    return row.statement, row.source, row.expected, computed, row.unit, deviation, row.remark
 
 
 def settings_table() -> str:

@@ -14,7 +14,7 @@ NAMED = [
 @pytest.mark.parametrize("statement", NAMED)
 def test_statement_holds(statement: Statement) -> None:
     row = statement.row()
-    assert row.holds, f"{row.statement} ({row.source}): printed {row.printed}, computed {row.computed:g} {row.unit}"
+    assert row.holds, f"{row.statement} ({row.source}): expected {row.expected}, computed {row.computed:g} {row.unit}"
 
 
 def test_every_model_has_statements_from_its_paper_and_from_elsewhere() -> None:
