@@ -53,7 +53,7 @@ class Lubricant:
         default=86.85,
         tolerance=1,
         text="temperature of viscosity and density",
-        assumed="86.85 °C, 360 K, at which the paper's viscosity gives its film thickness; give that of yours",
+        assumed="86.85 °C (360 K), where the paper's viscosity gives its film; give that of your oil",
     )
     pressure_viscosity: float = quantity(
         "pressure-viscosity coefficient", "α", f"{XUE}, Table 2", unit="per_gpa", default=21.9

@@ -198,7 +198,7 @@ class OilSheet:
     kind: OilKind = quantity(
         "kind of oil",
         default="mineral",
-        assumed="a mineral oil, where the data sheet's kind is not given",
+        assumed="mineral oil; the request names no kind",
         if_above=(
             "other oils, such as a phosphate ester, have no laws here; enter viscosity, density and pressure-viscosity "
             "coefficient as a lubricant, with a measured coefficient of friction"
@@ -211,8 +211,8 @@ class OilSheet:
         default=None,
         ge=500,
         le=2000,
-        default_text="by the kind of oil; a data sheet rarely gives it",
-        assumed="by the kind of oil; a data sheet rarely gives it",
+        default_text="by the kind of oil; few data sheets state it",
+        assumed="by the kind of oil; few data sheets state it",
     )
     pressure_viscosity: float | None = described(
         "Pressure-viscosity coefficient of Barus; None: by kind and viscosity, after Gold [1/Pa].", default=None

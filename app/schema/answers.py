@@ -90,8 +90,10 @@ class Notice(Group):
         Rank,
         Output(
             "rank of the warning",
-            text="invalid: a result is missing or the theory does not hold; doubtful: a limit is left; note: left out, "
-            "assumed or without meaning; the gravest first",
+            text=(
+                "invalid: a result is missing or the theory does not hold; doubtful: a limit is exceeded; "
+                "note: something is left out, assumed or without meaning; the gravest come first"
+            ),
         ),
     ]
     code: Annotated[str, Output("code of the warning", text="stable name, meant for programs")]
@@ -123,7 +125,7 @@ class Response(Group):
         Literal["ok", "ok_with_warnings", "no_solution"],
         Output("status", text="whether the calculation succeeded; with no_solution, `residuals` says how far it came"),
     ]
-    warnings: Annotated[list[Notice], Output("warnings", text="limits of validity that this result touches")]
+    warnings: Annotated[list[Notice], Output("warnings", text="limits of validity that this case exceeds")]
     residuals: Annotated[
         dict[str, float] | None, Output("residuals", text="how far an iteration without a solution came")
     ] = None
@@ -135,7 +137,7 @@ class Response(Group):
         str, Output("sources of the solvers", text="SHA-256 of the solvers' syntax trees; equal for equal calculations")
     ]
     model: Annotated[dict[str, Any], Output("options in force")]
-    derived: Annotated[Any, Output("derived", text="what follows from the request before any physics")] = None
+    derived: Annotated[Any, Output("derived", text="values that the service derived from the request")] = None
     inputs: Annotated[dict[str, Any], Output("inputs", text="the request with its defaults, to be posted")]
     case: Annotated[str, Output("case", text="SHA-256 of endpoint, inputs and sources; equal cases have equal results")]
 

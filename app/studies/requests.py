@@ -156,7 +156,8 @@ class Lognormal(Spread):
     distribution: Annotated[Literal["lognormal"], KIND]
     median: Annotated[float, Input("median", gt=0.0)]
     factor: Annotated[
-        float, Input("factor", text="one standard deviation: the median times or by this factor", gt=1.0, le=1e6)
+        float,
+        Input("factor", text="one standard deviation is the median times or divided by this factor", gt=1.0, le=1e6),
     ]
 
 
@@ -171,8 +172,10 @@ FromIndex = Annotated[
     int,
     Input(
         "index of the first point",
-        text="where to continue a study whose connection was lost; the lines of its points are the same from there "
-        "on, and the last line summarises these points alone",
+        text=(
+            "first point to send, to continue an interrupted study; the last line summarises only the "
+            "points from here on"
+        ),
         ge=0,
         le=1_000_000,
     ),

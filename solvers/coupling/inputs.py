@@ -61,7 +61,13 @@ class Coupling:
         assumed="2 modules; the paper gives none",
     )
     crowning_ratio: float = quantity(
-        "crowning ratio", "ε", PAHL, default=1.0, ge=0.2, le=1e3, text="crowning radius over pitch radius, 1: heavy"
+        "crowning ratio",
+        "ε",
+        PAHL,
+        default=1.0,
+        ge=0.2,
+        le=1e3,
+        text=("crowning radius over pitch radius; 1 is heavily crowned, 10 slightly"),
     )
     hub_distance: float = quantity(
         "distance of the tooth planes",
@@ -73,7 +79,7 @@ class Coupling:
         le=20000,
         tolerance=0.5,
         text="distance of the two tooth planes",
-        assumed="order of magnitude",
+        assumed="typical value; give that of your coupling",
     )
     tooth_stiffness: float = quantity(
         "tooth pair stiffness",
@@ -84,7 +90,7 @@ class Coupling:
         le=1e5,
         text="tangential stiffness of one tooth pair",
         default_text="280 N/µm times E/206 GPa",
-        assumed="order of magnitude of ISO 6336-1: 14 N/(mm µm) over 20 mm of effective width, times E/206 GPa",
+        assumed="about 14 N/(mm µm) by ISO 6336-1 over 20 mm of effective width, times E/206 GPa",
         equation="C7",
     )
     sleeve_mass: float = quantity(
@@ -95,7 +101,7 @@ class Coupling:
         ge=1e-3,
         le=1e4,
         text="mass carried by one mesh, half the sleeve",
-        assumed="order of magnitude",
+        assumed="typical value; give that of your coupling",
     )
     pitch_errors: tuple[float, ...] | None = quantity(
         "pitch deviations",
@@ -159,7 +165,7 @@ class Operation:
         default=0.0,
         ge=-1e4,
         le=1e4,
-        text="axial speed hub against sleeve at each mesh; positive: shafts move apart",
+        text="axial speed of hub against sleeve at each mesh; positive: the shafts move apart",
         tolerance=0.1,
     )
     arrangement: Arrangement = quantity(
@@ -177,7 +183,7 @@ class Operation:
         default=None,
         ge=1,
         le=2000,
-        text="of the customary thrust 0.25 T/D",
+        text="for the customary thrust 0.25 T/D",
         default_text="no customary thrust",
     )
     misalignment: float = quantity(
@@ -239,7 +245,7 @@ class Lubricant:
         ge=-50,
         le=300,
         tolerance=5,
-        text="temperature of an oil by grade or data sheet; reported, not used",
+        text="temperature of an oil given by grade or data sheet; for the report only",
     )
 
 
@@ -273,8 +279,10 @@ class MixedFrictionCurve:
         ge=1e-4,
         le=1000,
         text="largest sliding velocity at which the coefficient is least",
-        assumed="a calibration: it puts the friction minimum of the paper's heavily crowned coupling at 0.4° and"
-        " 200 1/s; the points of Fig. 10 and the speed of Fig. 11 are not in the text",
+        assumed=(
+            "calibrated so that the paper's heavily crowned coupling has least friction at 0.4° and 200 "
+            "1/s; the paper prints neither the points of Fig. 10 nor the speed of Fig. 11"
+        ),
     )
 
 
@@ -313,8 +321,10 @@ class Friction:
         ge=0,
         le=2,
         default_text="the law of the friction regime",
-        assumed="no coefficient given: our law of the friction regime, inside the paper's bands except in area 1.2; "
-        "there it rises from the mixed friction of area 1.1 to the paper's 0.1, so that the thrust has no step",
+        assumed=(
+            "from the friction regime; our law keeps the paper's bands except in area 1.2, where it rises "
+            "steadily from mixed friction to the paper's 0.1 so that the thrust does not jump"
+        ),
         tolerance=0.02,
     )
     static_coefficient: float | None = quantity(
@@ -324,8 +334,8 @@ class Friction:
         default=None,
         ge=0,
         le=2,
-        default_text="the coefficient given, else that of the law at rest without film",
-        assumed="0.16, the law of the friction regime at rest without film",
+        default_text="the given coefficient; without one, that of the law at rest without a film",
+        assumed="0.16, the law of the friction regime at rest without a film",
         tolerance=0.02,
     )
     mixed_law: MixedFrictionTable | None = quantity(
@@ -364,7 +374,7 @@ class ModelOptions:
     sleeve: SleeveSupport = quantity(
         "support of the sleeve",
         default="centred",
-        text="whether the sleeve of the single mesh is centred or finds its place",
+        text="sleeve of a single mesh: held on centre, or floating into its equilibrium",
         advanced=True,
     )
     inlet: InletModel = quantity(
@@ -372,7 +382,7 @@ class ModelOptions:
         "b_Ix",
         f"{PAHL}, Fig. 8",
         default="face",
-        text="what limits the oil inlet: the face left ahead of the contact, the contact's travel, nothing",
+        text=("what limits the oil inlet: the face ahead of the contact, the travel of the contact, or nothing"),
         assumed="the paper does not define the inlet length",
         advanced=True,
     )
@@ -384,7 +394,7 @@ class ModelOptions:
         ge=1e-3,
         le=2000,
         text="inlet length instead of the limit of the oil inlet",
-        default_text="by the limit of the oil inlet",
+        default_text="follows from the limit of the oil inlet",
         advanced=True,
     )
     film_angle: float | None = quantity(
@@ -397,7 +407,7 @@ class ModelOptions:
         le=360,
         text="tooth angle whose hydrodynamic velocity builds the film, 90 at the tilt position",
         default_text="that of the largest hydrodynamic velocity",
-        assumed="the largest hydrodynamic velocity of a revolution; the paper does not say which it takes",
+        assumed=("that of the largest hydrodynamic velocity of a revolution; the paper does not say which it takes"),
         advanced=True,
         tolerance=1,
     )

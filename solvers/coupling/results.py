@@ -143,7 +143,7 @@ class Regime:
     friction_max: float | None = quantity("upper end of the friction band", "μ_max", f"{PAHL}, Fig. 9")
     distance_to_boundary: float | None = quantity(
         "distance to the next friction area",
-        text="smallest |ln| of overlap and load capacity against the map's boundaries",
+        text="smallest |ln| of overlap and load capacity over the limits of the neighbouring areas",
     )
 
 
@@ -161,7 +161,9 @@ class Lubrication:
         "F_n",
         PAHL,
         unit="n",
-        text="largest tooth force with a tooth in the tilt position, or of a revolution with pitch deviations",
+        text=(
+            "largest tooth force with a tooth in the tilt position; with pitch deviations, the largest of a revolution"
+        ),
     )
     hertz_half_width: float = quantity("half width of the Hertzian contact", "a_HZ", f"{PAHL}, Fig. 7", unit="mm")
     hertz_pressure: float = quantity("largest Hertzian pressure", "p_H", unit="mpa")
@@ -194,7 +196,7 @@ class SelfInducedThrust:
         "F_ax,0",
         f"{PAHL}, Fig. 17",
         unit="n",
-        text="force on one shaft, positive: pulled together",
+        text="force on one shaft; positive pulls the shafts together",
     )
     overturning_moment: float = quantity(
         "overturning moment", "M_2", f"{PAHL}, Fig. 13", unit="n_m", text="moment of friction on the sleeve"
@@ -235,7 +237,10 @@ class AxialThrust:
         "F_ax",
         PAHL,
         unit="n",
-        text="thrust of one mesh, or with two meshes force on one shaft, positive: pulled together",
+        text=(
+            "one mesh: thrust between hub and sleeve; two meshes: force on one shaft; positive pulls "
+            "the shafts together"
+        ),
     )
     coaxial_limit: float = quantity(
         "thrust limit of coaxial shafts",
@@ -257,7 +262,7 @@ class AxialThrust:
         "thrust to be held",
         "F_ax,d",
         unit="n",
-        text="what a thrust bearing must hold: force or breakaway, the larger",
+        text="what a thrust bearing must hold: the larger of thrust and breakaway thrust",
         equation="C20",
     )
     customary_force: float | None = quantity(
@@ -279,13 +284,13 @@ class AxialThrust:
         equation="C21",
     )
     lower_bound: float = quantity(
-        "lower bound of the thrust", "F_ax,lo", unit="n", text="least thrust where friction at rest is indeterminate"
+        "lower bound of the thrust", "F_ax,lo", unit="n", text="least possible thrust while teeth stick"
     )
     upper_bound: float = quantity(
-        "upper bound of the thrust", "F_ax,up", unit="n", text="largest thrust where friction at rest is indeterminate"
+        "upper bound of the thrust", "F_ax,up", unit="n", text="largest possible thrust while teeth stick"
     )
     indeterminate: bool = quantity(
-        "indeterminate friction", text="whether teeth stick, so that friction takes any value up to its limit"
+        "indeterminate friction", text="whether teeth stick; friction then takes any value up to its limit"
     )
     self_induced: SelfInducedThrust | None = quantity(
         "self-induced", text="with axial velocity zero; null for a single mesh"
@@ -333,7 +338,7 @@ class Limits:
         "δ_lim",
         "Tribology Handbook B4.6",
         unit="deg",
-        text="misalignment at that sliding velocity; null where none reaches it",
+        text="misalignment at the sliding velocity limit; null if none reaches it",
         equation="C29",
     )
     sleeve_centring_torque: float = quantity(
@@ -463,9 +468,12 @@ class OrbitResult:
         unit="n",
         text="largest change of a harmonic with more rotor angles and orders",
     )
-    sweeps: int = quantity("sweeps", text="sweeps over the revolution until it repeated")
+    sweeps: int = quantity("sweeps", text="sweeps over the revolution until the path repeated")
     change: float = quantity(
-        "change in the last sweep", "Δe", unit="um", text="how far the last sweep still moved the path"
+        "change in the last sweep",
+        "Δe",
+        unit="um",
+        text=("how far the path still moved in the last sweep; small once it repeats"),
     )
     derived: Geometry = quantity("radius used")
     warnings: tuple[Notice, ...]

@@ -82,7 +82,7 @@ def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
             matrix = np.array(bearing.stiffness)
             if np.linalg.eigvalsh((matrix + matrix.T) / 2).min() < LEAST_STIFFNESS * (1 - ROUNDING):
                 message = (
-                    "the symmetric part of the stiffness matrix of a bearing must be at least 1 N/um in every direction"
+                    "the symmetric part of the stiffness matrix of a bearing must be at least 1 N/µm in every direction"
                 )
                 raise InvalidInput("stiffness_matrix", message, f"{name}.bearings.{k}.stiffness")
     distance = abs(shaft.bearings[0].position - shaft.bearings[1].position)

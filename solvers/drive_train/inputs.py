@@ -220,7 +220,7 @@ class Shaft:
         default=None,
         ge=1,
         le=1e8,
-        default_text="the use of the bearing is not told",
+        default_text="no verdict on the thrust bearing",
     )
 
     @property
@@ -320,7 +320,7 @@ class UnitCoupling:
         le=1e5,
         text="of one tooth, that lets it yield before it slides",
         default_text="the tooth pair stiffness",
-        assumed="as stiff as tangentially",
+        assumed="the same as the tangential stiffness",
     )
     offset: Vector2 = quantity(
         "offset of the machine's hub",
@@ -381,7 +381,7 @@ class Arrangement:
         "direction of gravity", "γ_g", unit="deg", default=-90.0, ge=-360, le=360, tolerance=1, text="from X towards Y"
     )
     gravity_factor: float = quantity(
-        "gravity factor", "g/g_0", default=1.0, ge=0, le=10, tolerance=0.1, text="weight over that on earth"
+        "gravity factor", "g/g_0", default=1.0, ge=0, le=10, tolerance=0.1, text=("weight relative to that on earth")
     )
 
 
@@ -406,7 +406,7 @@ class Heat:
         ge=0,
         le=1.5,
         tolerance=0.1,
-        text="rise of the pinion's metal over the rise of the pumped gas",
+        text="temperature rise of the pinion's teeth over that of the pumped gas",
         default_text=f"{ASSUMED_RESPONSE}",
         assumed="only a measurement gives it; known values lie between 0.2 and 1",
     )
@@ -428,9 +428,9 @@ class Heat:
         ge=-70,
         le=500,
         tolerance=5,
-        text="without the heat of pumping; give those of both gears or of none",
-        default_text="by the heat balance; 90 °C where none runs",
-        assumed="usual of high-speed gears; measure it",
+        text="without the heat of pumping; give both gears or neither",
+        default_text="from the heat balance; without one, 90 °C",
+        assumed="usual for high-speed gears; measure yours",
     )
     wheel_bulk: float | None = quantity(
         "tooth temperature of the wheel",
@@ -440,9 +440,9 @@ class Heat:
         ge=-70,
         le=500,
         tolerance=5,
-        text="without the heat of pumping; give those of both gears or of none",
-        default_text="by the heat balance; 80 °C where none runs",
-        assumed="usual of high-speed gears; measure it",
+        text="without the heat of pumping; give both gears or neither",
+        default_text="from the heat balance; without one, 80 °C",
+        assumed="usual for high-speed gears; measure yours",
     )
     reference: float = quantity(
         "temperature of the drawing",
@@ -452,12 +452,15 @@ class Heat:
         ge=-70,
         le=200,
         tolerance=5,
-        text="at which flanks are as drawn",
+        text="temperature at which the flanks have the drawn shape",
     )
     bulk_includes_pumping: bool = quantity(
         "tooth temperatures with pumping",
         default=False,
-        text="whether tooth temperatures hold the pumping heat; only its variation along the face is added then",
+        text=(
+            "whether the tooth temperatures contain the heat of pumping; then only its variation "
+            "along the face is added"
+        ),
     )
 
     @property
@@ -499,7 +502,7 @@ class Effects:
     """The effects that the model takes into account; `coupling` has no effect if `shafts` is false."""
 
     shafts: bool = quantity(
-        "shafts", default=True, text="whether shafts and bearings yield; without, couplings neither"
+        "shafts", default=True, text=("whether shafts and bearings yield; if not, couplings have no effect either")
     )
     coupling: bool = quantity("couplings", default=True, text="whether couplings load their shafts")
     thermal: bool = quantity("heat", default=True, text="whether heat deforms the flanks")
@@ -547,21 +550,29 @@ class DriveTrainInputs:
     coupling_friction: CouplingFriction = quantity(
         "friction law of the hubs",
         default="elastic_plastic",
-        text="teeth that yield before they slide, or full sliding at any tilt, for comparison",
+        text="teeth yield before they slide, or, for comparison, slide fully at any tilt",
         assumed="own derivation; no measurement of a well aligned hub is known",
         advanced=True,
     )
     bearing_film: BearingFilm = quantity(
         "film of the plain bearings",
         default="finite",
-        text="of finite width, or that of the short bearing, which is too stiff above a third of the diameter",
+        text=("bearing of finite width, or short bearing, which is too stiff if wider than a third of its diameter"),
         advanced=True,
     )
     face_stations: int = quantity(
-        "stations over the face", "n", default=41, ge=5, le=201, text="at which shafts and mesh meet", advanced=True
+        "stations over the face",
+        "n",
+        default=41,
+        ge=5,
+        le=201,
+        text=("stations at which shafts and mesh act on each other"),
+        advanced=True,
     )
     local_bulk: bool = quantity(
-        "local bulk temperature", default=False, text="whether the contact's bulk is warmer where more heat is pumped"
+        "local bulk temperature",
+        default=False,
+        text=("whether the bulk temperature is higher where more heat is pumped"),
     )
     bulk_given: bool = described(
         "Whether the bulk temperature is given: the cold unit then has the same one, else the reference temperature.",
@@ -571,7 +582,7 @@ class DriveTrainInputs:
         "states",
         default=("hot",),
         length=(1, 2),
-        text="the unit as described is hot; with cold the answer has both states",
+        text='the unit as described is hot; "cold" adds the unit at the temperature of the drawing',
     )
 
     @property

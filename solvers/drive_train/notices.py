@@ -80,7 +80,7 @@ def _film_notices(
         yield Notice("wide_bearing", message, f"{field}.width")
     if film is not None and eccentricity is not None and (film < THIN_FILM or eccentricity > LARGE_ECCENTRICITY):
         message = (
-            f"the film of the bearing is only {film * 1e6:.1f} um thick at an eccentricity ratio of {eccentricity:.2f}"
+            f"the film of the bearing is only {film * 1e6:.1f} µm thick at an eccentricity ratio of {eccentricity:.2f}"
         )
         yield Notice("thin_film", message, f"{field}.radial_clearance")
 

@@ -38,14 +38,12 @@ class Parts:
     tilting_moment: float = quantity(
         "slope by the tilting moment", "f_m", unit="um", text="of the axial force, elastic"
     )
-    films: float = quantity(
-        "slope by the bearings", "f_f", unit="um", text="by what yields in the bearings of both shafts"
-    )
+    films: float = quantity("slope by the bearings", "f_f", unit="um", text="yielding of the bearings of both shafts")
     films_pinion: float = quantity("slope by the pinion's bearings", "f_f1", unit="um")
     films_wheel: float = quantity("slope by the wheel's bearings", "f_f2", unit="um")
     bearing_offsets: float = quantity("slope by offsets of the bores", "f_o", unit="um")
     coupling: float = quantity(
-        "slope by the couplings", "f_c", unit="um", text="elastic; what films yield to it is theirs"
+        "slope by the couplings", "f_c", unit="um", text=("elastic part; the yielding of films counts for the bearings")
     )
     collar: float = quantity("slope by the thrust collar", "f_k", unit="um", text="elastic")
     weight: float = quantity("slope by the weight", "f_w", unit="um", text="elastic")
@@ -83,7 +81,9 @@ class Misalignment:
     shaft_slope: float = quantity("mesh misalignment", "f_sh", unit="um", text="slope of the gap by the shafts")
     shaft_crown: float = quantity("crown by the shafts", "C_sh", unit="um")
     shaft_range: float = quantity("range of the shafts' gap", "R_sh", unit="um")
-    shaft_mean: float = quantity("mean of the shafts' gap", "g_m", unit="um", text="which the transmission error takes")
+    shaft_mean: float = quantity(
+        "mean of the shafts' gap", "g_m", unit="um", text=("part of the gap that becomes transmission error")
+    )
     parts: Parts = quantity("slope by parts")
     thermal_slope: float = quantity("slope by heat", "f_th", unit="um")
     thermal_crown: float = quantity("crown by heat", "C_th", unit="um")
@@ -94,10 +94,16 @@ class Misalignment:
     )
     total_slope: float = quantity("slope by shafts and heat", "f_Hβ", unit="um")
     recommended_helix_slope: float = quantity(
-        "helix slope to grind", "f_Hβ,rec", unit="um", text="of the pair; sized at a load spread evenly over the face"
+        "helix slope to grind",
+        "f_Hβ,rec",
+        unit="um",
+        text=("for the pair, sized for a load spread evenly over the face"),
     )
     recommended_lead_crowning: float = quantity(
-        "helix crowning to grind", "C_β,rec", unit="um", text="of the pair; it only undoes crowns of shafts and heat"
+        "helix crowning to grind",
+        "C_β,rec",
+        unit="um",
+        text=("for the pair; undoes only the crowns due to shafts and heat"),
     )
     recommended_profile_slope: float = quantity("profile slope to grind", "f_Hα,rec", unit="um", text="of the pair")
     curves: GapCurves = quantity("gap over the face", detail="curves")
@@ -244,7 +250,7 @@ class FlashPlaces:
         "mean coefficient of friction of the flash temperature",
         "μ_mB",
         TR_13989,
-        text="given, or by the oil (ISO/TR 13989-1); null if neither it nor an oil is given",
+        text="given, or by the oil (ISO/TR 13989-1); null without both",
         equation="R5",
     )
 
@@ -264,10 +270,10 @@ class TrainSafety:
     thermal_ehl_profile: float | None = quantity(
         "safety factor on the flank (thermal EHL)",
         "S_T,2",
-        text="at the places of the flank that decide",
+        text="at the decisive places of the flank",
     )
     minimum: float | None = quantity(
-        "safety factor against scuffing", "S_B", text="least of all; null where one is unknown"
+        "safety factor against scuffing", "S_B", text=("smallest of the safety factors; null if one is unknown")
     )
 
 
@@ -300,7 +306,7 @@ class TrainLosses:
         equation="heat-balance#losses",
     )
     total: float | None = quantity("total loss", "P_L", unit="w", text="null without the loss of the mesh")
-    efficiency: float | None = quantity("efficiency", "η", text="null without power, or where the losses exceed it")
+    efficiency: float | None = quantity("efficiency", "η", text=("null without power, or if the losses exceed it"))
 
 
 @record(equation="drive-train#bearings")
@@ -337,7 +343,7 @@ class FlankMaps:
         "Hertzian pressure",
         "p_H",
         unit="mpa",
-        text="null where the reduced radius vanishes",
+        text="null at a base circle",
         axis=("profile_fraction", "face_fraction"),
         gaps=True,
     )
@@ -353,7 +359,7 @@ class FlankMaps:
         "specific film thickness against micropitting over the flank",
         "λ_GF",
         f"{ISO_TR_15144}, formula 2",
-        text="null without a check against micropitting, and where nothing is in contact",
+        text="null without a micropitting check and out of contact",
         axis=("profile_fraction", "face_fraction"),
         gaps=True,
         default=None,
@@ -383,12 +389,10 @@ class DriveTrainResult:
     balance: ForceBalance = quantity("balance", text="forces and moments on the shafts")
     convergence: Convergence = quantity("convergence")
     micropitting: Micropitting | None = quantity(
-        "micropitting", text="film against micropitting; null if not asked for, without an oil or a bulk temperature"
+        "micropitting", text="null unless asked for, with an oil and a bulk temperature"
     )
     wear: Wear | None = quantity("wear", text="mild wear; null without a wear coefficient")
-    heat: Heat | None = quantity(
-        "heat balance", text="null unless the bulk temperature is asked for by heat balance, of a known oil"
-    )
+    heat: Heat | None = quantity("heat balance", text="null unless the bulk temperature comes from a heat balance")
     over_the_flow: Callable[[FloatArray], FlowCurve] | None = described(
         "Function that returns the temperatures of the heat balance at other oil flows [m^3/s]; None without a balance."
     )

@@ -87,7 +87,9 @@ class UnitWarmUp:
     least_safety: float | None = quantity(
         "least safety factor of the warm-up",
         "S_B,min",
-        text="of the five times; null without a scuffing temperature, and where all are as cool as the oil",
+        text=(
+            "smallest of the five times; null without a scuffing temperature, or if the teeth stay as cool as the oil"
+        ),
     )
     largest_face_load_factor: float | None = quantity(
         "largest face load factor of the warm-up", "K_Hβ,max", ISO_6336, text="of the five times"
@@ -97,11 +99,11 @@ class UnitWarmUp:
         "j_n,min",
         OWN,
         unit="um",
-        text="gears against the casing; null without a casing in the balance",
+        text="from the temperatures of gears and casing; null without a casing in the balance",
         equation="H22",
     )
     alignment: AlignmentOverTime = quantity("alignment over time", detail="curves")
-    heat: Heat = quantity("heat balance", text="of the running unit, in which the warm-up ends")
+    heat: Heat = quantity("heat balance", text="balance of the running unit, at the end of the warm-up")
     derived: Derived = quantity("what was left open, as the running unit uses it")
     warnings: tuple[Notice, ...]
 

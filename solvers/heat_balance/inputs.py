@@ -142,9 +142,8 @@ class Cooling:
         default=None,
         ge=0.1,
         le=5000,
-        default_text="by the rise of its temperature",
-        assumed="the flow that mesh friction and windage, each by its formula, warm by the flow's rise; other heat "
-        "does not order more oil",
+        default_text="sized by its temperature rise",
+        assumed=("the flow that mesh friction and windage warm by the sizing rise; other heat does not order more oil"),
     )
     flow_rise: float = quantity(
         "rise by which the flow is sized",
@@ -155,7 +154,7 @@ class Cooling:
         ge=2,
         le=60,
         tolerance=2,
-        assumed="20 K, usual of turbo gear units",
+        assumed="20 K, usual for turbo gear units",
         folded=True,
     )
     flow_to_pinion: float = quantity(
@@ -202,7 +201,7 @@ class Cooling:
         ge=0,
         le=1,
         tolerance=0.1,
-        text="share of what is missing from a flooded film that oil out of the mist fills up",
+        text="share of the gap to a flooded film that oil from the mist fills",
         default_text=f"{REWETTING_SHARE:g}",
         assumed="0, the safe side",
         folded=True,
@@ -217,7 +216,7 @@ class Cooling:
         tolerance=0.2,
         text="factor on the cooling by the film",
         default_text=f"{FLING_OFF_FACTOR:g}",
-        assumed="1, the derived cooling",
+        assumed="1, the cooling as derived",
         folded=True,
     )
     mist_convection_factor: float = quantity(
@@ -295,7 +294,7 @@ class Cooling:
     band: bool = quantity(
         "band",
         default=True,
-        text="also the least and greatest temperatures over what is unknown of the cooling",
+        text="adds the lowest and highest temperatures over the uncertain cooling",
         folded=True,
     )
     measured: Measured = quantity("measured temperatures", default_factory=Measured)

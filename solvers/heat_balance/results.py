@@ -22,12 +22,17 @@ class GearTemperatures:
         "G_fl",
         OWN,
         unit="w_per_k",
-        text="the same of a film that more oil does not help",
+        text="conductance of a film so thick that more oil does not help",
         equation="H5",
     )
     film: float = quantity("film laid in a turn", "h_0", OWN, unit="um", equation="H4")
     turn_film: float = quantity(
-        "film that a turn can use", "h_turn", OWN, unit="um", text="carries 0.9 of the flooded heat", equation="H5"
+        "film that a turn can use",
+        "h_turn",
+        OWN,
+        unit="um",
+        text=("film thickness that carries 0.9 of the flooded heat"),
+        equation="H5",
     )
     oil_limited: bool = quantity(
         "cooling limited by the oil", text="all oil reaches the temperature of the flank", equation="H5"
@@ -65,12 +70,14 @@ class HeatLosses:
         "P_acc",
         OWN,
         unit="w",
-        text="what the teeth give to the oil that hits them; negative if the jets are faster and drive them",
+        text="power that the teeth give to the oil that hits them; negative if faster jets drive the teeth",
         equation="H9",
     )
     windage: float = quantity("windage", "P_wind", unit="w", equation="H8")
     bearings: float = quantity("bearing losses", "P_B", unit="w", equation="D5")
-    couplings: float = quantity("coupling losses", "P_C", unit="w", text="outside of the balance", equation="D9")
+    couplings: float = quantity(
+        "coupling losses", "P_C", unit="w", text=("friction of the couplings; not part of the balance"), equation="D9"
+    )
     other: float = quantity("other losses", "P_other", unit="w", equation="heat-balance#losses")
     jets: float = quantity(
         "power of the oil jets",
@@ -151,13 +158,13 @@ class Heat:
     balance: Balance = quantity("balance of heat")
     estimates: BulkEstimates = quantity("estimates of the bulk")
     band: HeatBand | None = quantity(
-        "band of the balance", text="what the uncertain cooling leaves open; null if all of it is given"
+        "band of the balance", text=("range of the results over the uncertain cooling; null if the cooling is given")
     )
     wheel_deviation: float | None = quantity(
         "deviation of the wheel",
         "Δθ_2",
         unit="k",
-        text="calculated less measured, where both gears are measured",
+        text="calculated minus measured, if both gears are measured",
         equation="H19",
     )
     drain_deviation: float | None = quantity(
@@ -165,7 +172,7 @@ class Heat:
         "Δθ_D",
         unit="k",
         default=None,
-        text="calculated less measured; above 0 where the calculated losses alone warm the drain further",
+        text=("calculated minus measured; positive: the calculated losses warm the drain more than was measured"),
         equation="H20",
     )
     backlash_loss: float | None = quantity(
@@ -174,7 +181,7 @@ class Heat:
         OWN,
         unit="um",
         default=None,
-        text="gears against the casing; null without its temperature",
+        text="from the temperatures of gears and casing; null without that of the casing",
         equation="H22",
     )
     flank_cases: tuple[tuple[float, float], ...] = described(

@@ -43,7 +43,11 @@ class WarmUp:
     nodes: tuple[str, ...] = quantity("nodes", index="flanks and bodies, mist, bearings, casing")
     final: FloatArray = quantity("final temperatures", "θ_end", unit="c", index="nodes")
     time_95: tuple[float | None, ...] = quantity(
-        "time to 95 %", "t_95", unit="s", index="nodes", text="null for a node that stays within 5 % or is not there"
+        "time to 95 %",
+        "t_95",
+        unit="s",
+        index="nodes",
+        text=("null for a part that changes by less than 5 % or is not there"),
     )
     greatest_difference: float = quantity("greatest difference of the bodies", "Δθ_max", unit="k")
     greatest_difference_at: float = quantity("time of the greatest difference", "t_Δ", unit="s")

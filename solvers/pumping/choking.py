@@ -91,7 +91,7 @@ def _beyond_limit(
         if speed is None:
             message = f"the flow through the {names[flow]} stays below the speed of sound up to {rpm(limit):.6g} rpm"
             if getattr(verdict, flow) == "doubtful":
-                message = f"doubtful: {message} with {slices} slices, but the band of the result contains sonic flow"
+                message = f"with {slices} slices {message}, but the uncertainty of the result includes sonic flow"
             notices.append(Notice("beyond_search_limit", message, "search_limit", rank="note"))
     return notices
 

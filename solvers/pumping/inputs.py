@@ -125,7 +125,10 @@ class PumpingModel:
         f"{MILIAN}, Eqs. 2-7",
         default=Flow.GAS_DYNAMICS,
         text="quasi-one-dimensional gas dynamics; the paper's chain of pockets; incompressible flow of one spur pocket",
-        assumed="converges with the slices; pressures of the paper's pocket chain depend on the number of pockets",
+        assumed=(
+            "gas dynamics converges with the slices; pressures of the paper's pocket chain depend "
+            "on the number of pockets"
+        ),
         advanced=True,
     )
     closure: Closure = quantity(
@@ -142,15 +145,17 @@ class PumpingModel:
         "L_1, L_2",
         f"{MILIAN}, Fig. 1",
         default=Gap.CONTACT,
-        text="radial clearances at the flanks' narrowest sections, sealed in contact, or at the mate's tip corners",
-        assumed="flanks in contact seal; with the paper's tip corners its test speeds are far from sonic",
+        text=(
+            "at the narrowest section between the flanks, sealed in contact, or at the tip corners of the mating gear"
+        ),
+        assumed=("flanks in contact seal; with the paper's tip corners the flow at its test speeds is far from sonic"),
         advanced=True,
     )
     wall_transport: bool = quantity(
         "transport by the flanks",
         default=True,
         text="whether flanks that roll through the coast-side gap carry their gas along",
-        assumed="follows from the flanks' motion; the paper has no such term",
+        assumed="follows from the motion of the flanks; the paper leaves it out",
         advanced=True,
     )
     slices: int | None = quantity(
@@ -161,7 +166,7 @@ class PumpingModel:
         ge=1,
         le=MOST_SLICES,
         text="slices or pockets over the face width",
-        default_text="100 of gas dynamics, 10 pockets",
+        default_text="100 slices of gas dynamics, 10 pockets of the chain",
         assumed="the paper gives none; peak pressures of gas dynamics are within 0.1 % at 100",
         advanced=True,
     )
@@ -181,7 +186,7 @@ class PumpingModel:
         ge=0,
         le=1,
         tolerance=0.05,
-        text="of all openings of the chain, of the radial gaps of gas dynamics",
+        text="applies to all openings of the pocket chain, and to the radial gaps of gas dynamics",
         assumed="ideal",
         advanced=True,
     )
@@ -229,7 +234,7 @@ class PumpingSetup:
     )
     ambient: Ambient = quantity("ambient", default_factory=Ambient, text="the mist around the mesh")
     model: PumpingModel = quantity(
-        "model", default_factory=PumpingModel, text="choices where the paper leaves room", advanced=True
+        "model", default_factory=PumpingModel, text="options where the paper leaves the model open", advanced=True
     )
 
 

@@ -36,7 +36,9 @@ class LeadCurves:
     radial_only: FloatArray = quantity(
         "radial thermal growth", "d_r", unit="um", text="the part of the larger radius alone", axis="position"
     )
-    correction: FloatArray = quantity("lead correction", "C", unit="um", text="what undoes the growth", axis="position")
+    correction: FloatArray = quantity(
+        "lead correction", "C", unit="um", text=("lead correction that compensates the thermal growth"), axis="position"
+    )
 
 
 @record(equation="P12")

@@ -77,7 +77,7 @@ class MassFlow:
         "mass flow of the reset",
         "m_0",
         unit="g_per_s",
-        text="given back when a slice's stroke ends and begins, with its idle neighbours",
+        text="gas that a slice gives back between its strokes, with its idle neighbours",
     )
     front_out: float = quantity("mass flow out of the front", "m_f,out", unit="g_per_s", text="while gas leaves there")
     front_in: float = quantity("mass flow into the front", "m_f,in", unit="g_per_s", text="while gas enters there")
@@ -87,14 +87,14 @@ class MassFlow:
         "uncertainty of the net mass flows",
         "Δm",
         unit="g_per_s",
-        text="of front and rear, small differences of out and in: three times what half the resolution changes",
+        text=("three times the change at half the resolution; front and rear are small differences of out and in"),
         equation="P15",
     )
     radial_uncertainty: float = quantity(
         "uncertainty of the radial mass flow",
         "Δm_rad",
         unit="g_per_s",
-        text="three times what half the resolution changes of it",
+        text="three times the change at half the resolution",
         equation="P15",
     )
 
@@ -103,9 +103,9 @@ class MassFlow:
 class Balance:
     """Relative errors of the balances; `energy_error` is None if the model does not conserve energy."""
 
-    mass_error: float = quantity("mass balance error", text="relative error of the books on mass")
+    mass_error: float = quantity("mass balance error", text="relative error of the mass balance")
     energy_error: float | None = quantity(
-        "energy balance error", text="relative error of the books on energy; null where none is conserved"
+        "energy balance error", text=("relative error of the energy balance; null if the model conserves no energy")
     )
 
 
@@ -142,14 +142,17 @@ class FaceProfile:
         "Δθ_0",
         f"{MILIAN}, Figs. 5, 6",
         unit="k",
-        text="stroke mean of the stagnation temperature above ambient, by the axial speed alone, not that of the teeth",
+        text=(
+            "mean over the stroke of the stagnation temperature above ambient; counts the axial "
+            "speed of the gas, not that of the teeth"
+        ),
         axis="position",
     )
     static_temperature_rise: FloatArray | None = quantity(
         "mean static temperature rise",
         "Δθ",
         unit="k",
-        text="stroke mean of the temperature above ambient",
+        text="mean over the stroke of the temperature above ambient",
         axis="position",
     )
     peak_pressure_ratio: FloatArray = quantity(
@@ -229,7 +232,7 @@ class SpacesResult:
     pumping_power: float = quantity("pumping power of these spaces", "P", unit="w")
     work_per_space: float = quantity("work per space", "W", unit="j", text="work on the gas of one space in a stroke")
     mass_flow: MassFlow = quantity("mass flow", unit="g_per_s", text="net mass flow out")
-    balance: Balance = quantity("balance", text="how the books close")
+    balance: Balance = quantity("balance", text="errors of the balances of mass and energy")
     profile: FaceProfile = quantity("along the face", detail="curves")
     field: GasField = quantity("over angle and position", detail="fields")
     steps: int
@@ -291,7 +294,10 @@ class Choking:
     inflow_mach: float = quantity("Mach number of the inflow that decides", "Ma_in", text="above 1: choked")
     inflow_uncertainty: float = quantity("uncertainty of the inflow's Mach number", text="relative")
     slices: int = quantity(
-        "slices of the verdict", "N_v", text="as many as the verdict took; the numbers are of `slices`", equation="P15"
+        "slices of the verdict",
+        "N_v",
+        text=("slices that the verdict needed; the other results use `slices`"),
+        equation="P15",
     )
 
 
@@ -331,7 +337,7 @@ class ChokingCurves:
     exit_mach: FloatArray = quantity(
         "exit Mach number",
         "Ma_e",
-        text="Mach number that the ambient pressure asks for at the ends; above 1: choked",
+        text="Mach number at which the gas would leave against the ambient pressure; above 1: choked",
         axis="pinion_speed",
     )
     inflow_mach: FloatArray = quantity(

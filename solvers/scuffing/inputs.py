@@ -434,8 +434,10 @@ class ScuffingTest:
         ge=0.1,
         le=2,
         default_text="by the oil's kind, and its viscosity at 90 °C",
-        assumed="X_L at the test's 90 °C, for the scuffing temperature is a property of oil and steel; others take it "
-        "at the oil temperature in use",
+        assumed=(
+            "X_L at the 90 °C of the test, because the scuffing temperature belongs to oil and steel; "
+            "other programs take the oil temperature of the gear"
+        ),
     )
 
 
@@ -470,18 +472,25 @@ class Temperatures:
         None,
         TR_13989,
         default=None,
-        text="given; estimated from oil, its supply and flash; or by the heat balance of losses and oil",
-        default_text="given where a bulk temperature is; else, with jets of a known oil, the estimate up to 20 m/s and "
-        "from there steadily to the heat balance at 60 m/s, never below the estimate; else the estimate",
-        assumed="the estimate holds for flooded flanks and the heat balance for jets alone; from 20 to 60 m/s the bulk "
-        "temperature goes from one to the other, and it is never below the estimate",
+        text=(
+            "given: the bulk temperature stated; estimated: from oil temperature, lubrication and "
+            "flash temperature; heat balance: from losses and oil flow"
+        ),
+        default_text=(
+            "given, if a bulk temperature is; otherwise the estimate, which with jets of a known oil goes "
+            "to the heat balance between 20 and 60 m/s"
+        ),
+        assumed=(
+            "the estimate holds for flooded flanks, the heat balance for jets; from 20 to 60 m/s the bulk "
+            "temperature goes from one to the other, never below the estimate"
+        ),
     )
     oil_supply: OilSupply = quantity(
         "lubrication system factor",
         "X_S",
         TR_13989,
         default="spray",
-        assumed="spray lubrication; it decides the estimated bulk",
+        assumed="spray lubrication; scales the estimated bulk temperature",
     )
     oil: float = quantity(
         "oil temperature",
@@ -504,7 +513,7 @@ class Temperatures:
         le=1500,
         tolerance=20,
         text="scuffing temperature of oil and material",
-        default_text="by the scuffing test; with neither no safety factor",
+        default_text="by the scuffing test; without both, no safety factor",
     )
     scuffing_test: ScuffingTest | None = quantity(
         "scuffing test", default=None, text="instead of the temperature: the stage at which the oil fails"
@@ -566,8 +575,8 @@ class MicropittingCheck:
             '"above 10" on a data sheet means that the oil passed the last stage; enter 10, which is on the safe side, '
             "or the permissible specific film thickness instead"
         ),
-        default_text="no safety, unless a permissible ratio is given",
-        assumed="neither failure load stage nor permissible ratio is given: films without a safety",
+        default_text="no safety factor, unless a permissible film thickness is given",
+        assumed=("no failure load stage and no permissible film thickness given: films without a safety factor"),
     )
     surface: FlankSurfaces = quantity("surfaces of the flanks", default_factory=FlankSurfaces)
     material_factor: float | None = quantity(
@@ -578,7 +587,7 @@ class MicropittingCheck:
         ge=0.1,
         le=3,
         tolerance=0.1,
-        text="how much more film the flanks need than those of the test",
+        text="permissible film of these flanks over that of the test flanks",
         default_text="by the surfaces",
     )
     permissible_ratio: float | None = quantity(
@@ -589,7 +598,7 @@ class MicropittingCheck:
         ge=1e-3,
         le=10,
         tolerance=0.05,
-        text="instead of the test: the film over roughness that the flanks need",
+        text="film over roughness that the flanks need, instead of a test",
         default_text="by the micropitting test",
     )
     quality_grade: int = quantity(
@@ -599,7 +608,7 @@ class MicropittingCheck:
         default=7,
         ge=5,
         le=12,
-        text="of the load sharing of the standard; grades up to 7 count as 7",
+        text="for the load sharing of the standard; finer grades count as 7",
         assumed="grade 7, as of the test gears",
     )
     wear_coefficient: float | None = quantity(
@@ -645,15 +654,14 @@ class ScuffingInputs:
         None,
         TR_13989,
         default="iso_tr_13989",
-        text="the coefficient given, or by the oil: that of ISO/TR 13989-1 for Blok, Schlenk's for the losses; the"
-        " first where a coefficient is given",
+        text="given coefficient; or by the oil: ISO/TR 13989-1 for the flash temperature, Schlenk for the losses",
     )
     lubrication: Lubrication = quantity(
         "lubrication model",
         None,
         XUE,
         default="thermal_ehl",
-        text="film and flash temperature by the thermal EHL solution, or by formulas alone",
+        text="film and flash temperature by thermal EHL, or by closed formulas alone",
         advanced=True,
     )
     film: ehl.Model = field(default_factory=ehl.Model)
@@ -681,7 +689,7 @@ class ScuffingInputs:
     cooling: Cooling = quantity(
         "cooling",
         default_factory=Cooling,
-        text="how the oil reaches the teeth, what else heats it, and what was measured; of the heat balance",
+        text="for the heat balance: how the oil reaches the teeth, what else heats it, what was measured",
     )
 
     @property

@@ -124,7 +124,7 @@ class Stiffness:
         "line load of the stiffnesses",
         "w_s",
         unit="n_per_mm",
-        text="line load of the single stiffnesses: the mean, or 100 without load",
+        text="line load at which the stiffnesses hold: the mean, or 100 N/mm without load",
     )
     curves: StiffnessCurves = quantity("stiffness along the path", detail="curves")
 
@@ -203,7 +203,7 @@ class LoadOnFlank:
     face_load_factor: float | None = quantity(
         "face load factor", "K_Hβ", ISO_6336, text="largest over mean load across the face", equation="L17"
     )
-    balance_error: float = quantity("load balance error", text="force left over, relative", equation="Xue 11")
+    balance_error: float = quantity("load balance error", text="relative error of the load balance", equation="Xue 11")
     pair_share: FloatArray | None = quantity(
         "load share of each line",
         "F_i/F",
@@ -244,12 +244,12 @@ class FrictionLoss:
         "mean coefficient of friction of the losses",
         "μ_m",
         SCHLENK,
-        text="given, or by the oil (Schlenk); null if neither it nor an oil is given",
+        text="given, or by the oil (Schlenk); null without both",
         equation="R10",
     )
     loss_factor: float | None = quantity("tooth loss factor", "H_V", text="loss factor; null without load")
     power: float | None = quantity("friction power", "P_V", unit="w", text="null without a coefficient of friction")
-    efficiency: float | None = quantity("mesh efficiency", "η_z", text="1 - μ_m H_V; null without load")
+    efficiency: float | None = quantity("mesh efficiency", "η_z", text="1 − μ_m H_V; null without load")
 
 
 @dataclass(frozen=True, slots=True)
@@ -298,7 +298,7 @@ class FeatureLine:
         "Hertzian pressure along the feature line",
         "p_H",
         unit="mpa",
-        text="null where the reduced radius vanishes",
+        text="null at a base circle",
         axis="psi",
         gaps=True,
     )
@@ -365,7 +365,7 @@ class Flank:
         "p_H",
         f"{XUE}, Figs. 13-17",
         unit="mpa",
-        text="null where the reduced radius vanishes",
+        text="null at a base circle",
         axis=("profile_fraction", "face_fraction"),
         gaps=True,
     )

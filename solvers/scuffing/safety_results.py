@@ -35,7 +35,10 @@ class Flash:
         "Δθ_fl,B",
         f"{XUE}, Eq. 25",
         unit="k",
-        text="by Blok over the flank; null where a loaded point has none, as all do without a coefficient of friction",
+        text=(
+            "largest on the flank by Blok; null without a coefficient of friction, or if a loaded "
+            "point has no flash temperature"
+        ),
     )
     blok_at_psi: float | None = quantity(
         "place of the largest flash by Blok on the feature line", "Ψ_B", text="null without load there", equation="S1"
@@ -45,7 +48,7 @@ class Flash:
         "Δθ_fl,Ψ",
         f"{XUE}, Eq. 25",
         unit="k",
-        text="along the paper's line A1 to E2; null where a loaded point has none",
+        text="along the paper's line A1 to E2; null if a loaded point has no flash temperature",
         default=None,
     )
     blok_at_profile: float | None = quantity(
@@ -66,7 +69,7 @@ class Flash:
         "Δθ_fl",
         f"{XUE}, Fig. 22",
         unit="k",
-        text="at the places of the flank that decide; null in closed form",
+        text="at the decisive places of the flank; null in closed form",
         default=None,
         equation="Xue 16",
     )
@@ -92,7 +95,7 @@ class Flash:
         "mean coefficient of friction of the flash temperature",
         "μ_mB",
         TR_13989,
-        text="Blok's; given, or by the oil (ISO/TR 13989-1); null if neither it nor an oil is given",
+        text="for Blok's formula: given, or by the oil (ISO/TR 13989-1); null without both",
         default=None,
         equation="R5",
     )
@@ -111,7 +114,7 @@ class BulkInForce:
         "θ_M,est",
         TR_13989,
         unit="c",
-        text="null where it is given, without an oil, or where the flash temperature has no mean",
+        text="null if the bulk temperature is given, without an oil, or without a mean flash temperature",
         equation="R8",
     )
     bulk_balance: float | None = quantity(
@@ -119,14 +122,14 @@ class BulkInForce:
         "θ_M,bal",
         OWN,
         unit="c",
-        text="mean of both flanks; null where no balance ran",
+        text="mean of both flanks; null without a heat balance",
         equation="H18",
     )
     balance_share: float | None = quantity(
         "share of the heat balance",
         "s",
         OWN,
-        text="0 up to 20 m/s, rising to 1 at 60 m/s; null where the method is chosen",
+        text="0 up to 20 m/s, rising to 1 at 60 m/s; null if a method is chosen",
     )
 
     def bulk_at(self, balance: FloatArray) -> FloatArray:
@@ -157,7 +160,7 @@ class ContactTemperature:
         "θ_B,max",
         f"{XUE}, Eq. 16",
         unit="c",
-        text="by Blok; null where a loaded point has none",
+        text="by Blok; null if a loaded point has no flash temperature",
     )
     thermal_ehl_max: float | None = quantity(
         "contact temperature by thermal EHL",
@@ -212,7 +215,7 @@ class Film:
         "lubrication regime",
         None,
         XUE,
-        text="below 1 boundary, scuffing probable; to 4 mixed; above full film",
+        text="below 1: boundary lubrication, scuffing probable; 1 to 4: mixed; above 4: full film",
         default=None,
         equation="Xue 28",
     )
@@ -235,33 +238,35 @@ class Safety:
     """
 
     scuffing: float = quantity(
-        "scuffing temperature used", "θ_S", unit="c", text="given or by the scuffing test", equation="R9"
+        "scuffing temperature used", "θ_S", unit="c", text="given, or by the scuffing test", equation="R9"
     )
     blok_factor: float | None = quantity(
         "safety factor (flash temperature method)",
         "S_B",
         f"{XUE}, Eq. 26",
-        text="scuffing safety by Blok; null where the teeth stay as cool as the oil",
+        text="safety against scuffing by Blok; null if the teeth stay as cool as the oil",
     )
     feature_line_factor: float | None = quantity(
         "safety factor on the feature line (flash temperature method)",
         "S_B,Ψ",
         f"{XUE}, Eq. 26",
-        text="by Blok along the paper's line A1 to E2; null where it stays as cool as the oil",
+        text="by Blok along the paper's line A1 to E2; null if the line stays as cool as the oil",
         default=None,
     )
     thermal_ehl_factor: float | None = quantity(
         "safety factor (thermal EHL)",
         "S_B,EHL",
-        text="by the thermal EHL solution, whose flanks touch nowhere; null in closed form",
+        text="by the thermal EHL solution of smooth flanks; null in closed form",
         default=None,
     )
     verdict: ScuffingRisk | None = quantity(
         "risk of scuffing",
         None,
         "ISO/TR 13989-1, quoted, not verified against the standard",
-        text="by Blok's factor, at the lower end of its band if there is one: below 1 high, to 2 moderate, above low; "
-        "null without it",
+        text=(
+            "safety below 1: high; 1 to 2: moderate; above 2: low; at the lower end of the band if there "
+            "is one; null without a safety factor"
+        ),
         default=None,
     )
 
@@ -375,8 +380,10 @@ class ScuffingPath:
         "specific film thickness against micropitting",
         "λ_GF",
         f"{ISO_TR_15144}, formula 2",
-        text="film at the contact temperature over the mean roughness of both flanks; null without a check against "
-        "micropitting, and where nothing is in contact",
+        text=(
+            "film at the contact temperature over the mean roughness of both flanks; null without a "
+            "micropitting check and out of contact"
+        ),
         axis="psi",
         gaps=True,
         default=None,
@@ -396,7 +403,7 @@ class HeatedFlank(Flank):
         "Δθ_fl,B",
         f"{XUE}, Eq. 25",
         unit="k",
-        text="by Blok; null where the reduced radius vanishes and without a coefficient of friction",
+        text="by Blok; null at a base circle and without a coefficient of friction",
         axis=("profile_fraction", "face_fraction"),
         gaps=True,
     )
@@ -404,7 +411,7 @@ class HeatedFlank(Flank):
         "specific film thickness against micropitting over the flank",
         "λ_GF",
         f"{ISO_TR_15144}, formula 2",
-        text="null without a check against micropitting, and where nothing is in contact",
+        text="null without a micropitting check and out of contact",
         axis=("profile_fraction", "face_fraction"),
         gaps=True,
         default=None,
@@ -433,13 +440,13 @@ class Scuffing:
         detail="curves",
     )
     micropitting: Micropitting | None = quantity(
-        "micropitting", text="film against micropitting; null if not asked for, without an oil or a bulk temperature"
+        "micropitting", text="null unless asked for, with an oil and a bulk temperature"
     )
     wear: Wear | None = quantity("wear", text="mild wear; null without a wear coefficient")
     heat: Heat | None = quantity(
         "heat balance",
         default=None,
-        text="null where the bulk temperature needs none: given, estimated, up to 20 m/s, or without an oil",
+        text=("null if the bulk temperature needs no balance: given, estimated, up to 20 m/s, or without an oil"),
     )
     flank_flash: FloatArray = described(
         "Flash temperature by Blok over the flank [profile, face]; NaN if it is unbounded, or if the coefficient of "
@@ -450,9 +457,7 @@ class Scuffing:
     )
     derived: ScuffingDerived = quantity("load, lengths and oil used")
     warnings: tuple[Notice, ...]
-    unsolved_points: int = quantity(
-        "unsolved points", text="contacts of lines and decisive places without a solution or refused"
-    )
+    unsolved_points: int = quantity("unsolved points", text="contacts that were refused or have no solution")
 
     @property
     @computed("over the flank", detail="fields")

@@ -124,9 +124,9 @@ class _CouplingRequest(Request):
     operation: Annotated[CouplingLoad, Input("operating point")]
     lubricant: Annotated[CouplingLubricant, Input("oil at the teeth")] = CouplingLubricant()
     friction: Annotated[CouplingFriction, Input("friction between the teeth")] = CouplingFriction()
-    model: Annotated[CouplingModel, Input("model", text="choices where the paper leaves room", advanced=True)] = (
-        CouplingModel()
-    )
+    model: Annotated[
+        CouplingModel, Input("model", text="options where the paper leaves the model open", advanced=True)
+    ] = CouplingModel()
 
     def unused(self) -> dict[str, bool]:
         """Mark inputs as unused if other inputs make them ineffective.

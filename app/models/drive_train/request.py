@@ -104,9 +104,11 @@ class CylindricalSection(Section, of=si.ShaftSection):
             si.ShaftSection,
             "outer_diameter",
             text="under the teeth the diameter that carries torsion",
-            default_text="under the teeth d - m_n h_fP*; required elsewhere",
-            assumed="under the teeth, d - m_n h_fP* is used, which is the mean of root diameter and reference diameter "
-            "if there is no profile shift; with the reference diameter, the computed torsion would be too small",
+            default_text="under the teeth d − m_n h_fP*; required elsewhere",
+            assumed=(
+                "under the teeth d − m_n h_fP*, without profile shift the mean of root and reference "
+                "diameter; with the reference diameter the torsion would be too small"
+            ),
         ),
     ] = None
 
@@ -117,7 +119,7 @@ class ShaftBearing(Section):
     position_mm: Annotated[float, Input.of(si.RadialBearing, "position")]
     type: Annotated[
         Literal["journal", "linear", "rigid"],
-        Input("bearing type", text="short plain bearing; stiffness given; rigid"),
+        Input("bearing type", text="plain bearing, given stiffness, or rigid"),
     ] = "journal"
     offset_um: Annotated[Pair, Input.of(si.RadialBearing, "offset")] = Field(
         default_factory=partial(list[float], (0.0, 0.0))
@@ -285,8 +287,7 @@ class TrainTemperatures(ContactTemperatures, of=si.DriveTrainInputs, only=("loca
             mesh.Temperatures,
             "bulk",
             text="bulk temperature of the contact, at which the oil enters",
-            default_text="the mean of the tooth temperatures where one of them is given, else by the bulk temperature "
-            "method",
+            default_text="mean of the tooth temperatures if they are given, otherwise by the bulk temperature method",
             assumed="the mean of the two tooth temperatures",
         ),
     ] = None
@@ -311,7 +312,12 @@ class DriveTrainRequest(MeshInOil):
 
     gears: Annotated[TrainGears, Input("gear pair")]
     grooves: Annotated[
-        list[GearGroove], Input("grooves", text="circumferential grooves; they do not carry less", length=(0, 50))
+        list[GearGroove],
+        Input(
+            "grooves",
+            text=("circumferential grooves; they let the mist out and do not reduce the load-carrying face"),
+            length=(0, 50),
+        ),
     ] = Field(default_factory=list)
     operation: Annotated[TrainOperation, Input("operating point")]
     face_start_mm: Annotated[float, Input.of(si.DriveTrainInputs, "face_start")]
@@ -334,9 +340,9 @@ class DriveTrainRequest(MeshInOil):
     states: Annotated[list[si.State], Input.of(si.DriveTrainInputs, "states")] = Field(
         default_factory=partial(list[si.State], ("hot",))
     )
-    model: Annotated[TrainModel, Input("model", text="choices where the papers leave room", advanced=True)] = (
-        TrainModel()
-    )
+    model: Annotated[
+        TrainModel, Input("model", text="options where the papers leave the model open", advanced=True)
+    ] = TrainModel()
 
     @model_validator(mode="after")
     def bodies_hold_the_pumped_heat(self) -> Self:

@@ -71,7 +71,7 @@ class LoadDistributionRequest(GearPairRequest):
 
     friction_coefficient: Annotated[float, Input.of(si.LoadDistributionInputs, "friction_coefficient")] = 0.06
     model: Annotated[
-        LoadDistributionModel, Input("model", text="choices where the paper leaves room", advanced=True)
+        LoadDistributionModel, Input("model", text="options where the paper leaves the model open", advanced=True)
     ] = LoadDistributionModel()
 
     def inputs(self) -> si.LoadDistributionInputs:

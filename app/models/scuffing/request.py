@@ -271,9 +271,9 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
     )
     cooling: Annotated[GearCooling, Input.of(si.ScuffingInputs, "cooling")] = GearCooling()
     micropitting: Annotated[Micropitting | None, Input.of(si.ScuffingInputs, "micropitting")] = None
-    model: Annotated[ScuffingModel, Input("model", text="choices where the paper leaves room", advanced=True)] = (
-        ScuffingModel()
-    )
+    model: Annotated[
+        ScuffingModel, Input("model", text="options where the paper leaves the model open", advanced=True)
+    ] = ScuffingModel()
 
     def running(self) -> tuple[GearPairInputs, si.Load]:
         return self.gears.si(GearPairInputs), self.load.si(si.Load)

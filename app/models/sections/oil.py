@@ -55,9 +55,8 @@ class SheetOil(Section):
         Input.of(
             OilSheet,
             "kinematic_viscosity_100",
-            default_text="by the viscosity index, else typical of the kind of oil",
-            assumed="a typical viscosity index of the kind of oil is used: 94 to 102 for mineral oils, 150 for PAO and "
-            "ester, 210 for polyglycols",
+            default_text="by the viscosity index, otherwise typical of the kind of oil",
+            assumed="typical viscosity index of the kind of oil: 94 to 102 mineral, 150 PAO and ester, 210 polyglycol",
         ),
     ] = None
     viscosity_index: Annotated[
@@ -69,8 +68,8 @@ class SheetOil(Section):
             ge=VISCOSITY_INDICES[0],
             le=VISCOSITY_INDICES[1],
             tolerance=5,
-            text="beside the viscosity at 40 °C, instead of that at 100 °C",
-            default_text="by the viscosity at 100 °C, else typical of the kind of oil",
+            text="instead of the viscosity at 100 °C",
+            default_text="by the viscosity at 100 °C, otherwise typical of the kind of oil",
         ),
     ] = None
     kind: Annotated[OilKind, Input.of(OilSheet, "kind")] = "mineral"

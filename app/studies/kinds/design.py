@@ -47,7 +47,7 @@ class Variable(FieldsTogether):
     max: Annotated[float, Input("upper end")]
     step: Annotated[
         float | None,
-        Input("step", text="to what the best value is rounded, which is then judged once more", gt=0, le=1e6),
+        Input("step", text="step of manufacture; the best value is rounded to it and judged again", gt=0, le=1e6),
     ] = None
 
 
@@ -57,10 +57,15 @@ class DesignRequest(DriveTrainStudy):
     variables: Annotated[list[Variable], Field(min_length=1, max_length=10), Input("variables")]
     corners: Annotated[Ranges, Input("corners", text=RANGES, default_text="the request's own")] = None
     collective: Annotated[
-        Cases, Input("collective", text="operating points, as what each changes", default_text="the request's own")
+        Cases,
+        Input(
+            "collective",
+            text="operating points, each with the inputs that it changes",
+            default_text="the request's own",
+        ),
     ] = None
     objective: Annotated[
-        FieldPath, Input("objective", text="dotted path of the output that its worst corner judges")
+        FieldPath, Input("objective", text="dotted path of the output to improve at its worst corner")
     ] = "safety.minimum"
     direction: Annotated[
         Literal["maximise", "minimise"] | None,

@@ -66,7 +66,7 @@ def result_notices(film: FilmThickness, friction: ContactFriction, heat: Contact
         notices.append(
             Notice(
                 "thin_film",
-                f"the film is only {film.minimum * 1e6:.3f} um thick; below 0.05 um the roughness of the surfaces "
+                f"the film is only {film.minimum * 1e6:.3f} µm thick; below 0.05 µm the roughness of the surfaces "
                 "carries part of the load",
                 "viscosity",
             )

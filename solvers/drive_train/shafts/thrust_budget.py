@@ -34,7 +34,10 @@ class Thrust:
         "limit of the coupling's thrust", "F_max", unit="n", text="of all couplings of the shaft", equation="C20"
     )
     collar: float | None = quantity(
-        "force of the thrust collar", "F_k", unit="n", text="holds mesh and couplings of the pinion; null without one"
+        "force of the thrust collar",
+        "F_k",
+        unit="n",
+        text=("axial force of mesh and pinion couplings on the collar; null without a collar"),
     )
     lower: float | None = quantity(
         "least bearing thrust", "F_ax,min", API_613, unit="n", text="null where a collar holds the shaft"
@@ -46,7 +49,7 @@ class Thrust:
         "use of the thrust bearing",
         "F/(0.5 F_ult)",
         API_613,
-        text="largest load over half the ultimate one; null without one",
+        text="largest load over half the ultimate load; null without an ultimate load",
     )
     customary: float | None = quantity(
         "customary thrust of a coupling",

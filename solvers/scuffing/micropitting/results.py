@@ -18,7 +18,7 @@ class FilmOfTest:
         "specific film thickness of the micropitting test",
         "λ_GFT",
         ISO_TR_15144,
-        text="least of the test gears at the failure load stage",
+        text="smallest of the test gears at the failure load stage",
     )
     bulk: float = quantity("bulk temperature of the micropitting test", "θ_M,T", ISO_TR_15144, unit="c", equation="M11")
     friction_coefficient: float = quantity(
@@ -43,7 +43,7 @@ class LocalPoint:
         equation="micropitting#method-a-the-own-load",
     )
     ratio: float | None = quantity(
-        "specific film thickness at the point", "λ_GF", ISO_TR_15144, text="null where nothing is in contact"
+        "specific film thickness at the point", "λ_GF", ISO_TR_15144, text="null out of contact"
     )
     safety: float | None = quantity(
         "safety factor against micropitting at the point", "S_λ", ISO_TR_15144, text="null without a permissible ratio"
@@ -84,19 +84,19 @@ class LocalFilm:
         "risk of micropitting",
         None,
         "common practice",
-        text="below 1 likely, to 2 limited margin, above unlikely; null without a safety factor",
+        text=("safety below 1: likely; 1 to 2: limited margin; above 2: unlikely; null without a safety factor"),
     )
     friction_coefficient: float | None = quantity(
         "coefficient of friction against micropitting",
         "μ_λ",
         f"{ISO_TR_15144}, formula 86",
-        text="given, or by the report with the computed K_Hβ; null without load",
+        text="given, or by ISO/TR 15144-1 with the computed K_Hβ; null without load",
         equation="M9",
     )
     thermal_ehl_ratio: float | None = quantity(
         "least specific film thickness by thermal EHL",
         "λ_EHL,min",
-        text="the film by thermal EHL over the mean roughness, at the places that decide; null in closed form",
+        text="film by thermal EHL over the mean roughness, at the decisive places; null in closed form",
         equation="micropitting#method-a-the-own-load",
     )
     points: tuple[LocalPoint, ...] = quantity("film against micropitting at the points of the feature line")
