@@ -244,7 +244,7 @@ class Safety:
         "safety factor (flash temperature method)",
         "S_B",
         f"{XUE}, Eq. 26",
-        text="safety against scuffing by Blok; null if the teeth stay as cool as the oil",
+        text="safety factor against scuffing by Blok; null if the teeth stay as cool as the oil",
     )
     feature_line_factor: float | None = quantity(
         "safety factor on the feature line (flash temperature method)",
