@@ -24,21 +24,7 @@ T = TypeVar("T")
 def guarded(
     solve: Callable[Concatenate[I, P], R], unusual: Callable[[I, R], Iterator[Notice]]
 ) -> Callable[Concatenate[I, P], R]:
-    """Return a solver that rejects inputs outside their declared ranges and warns of unusual values.
-
-    Parameters
-    ----------
-    solve : callable
-        The solver. Its first argument is a dataclass of inputs, and its result is a dataclass with a field `warnings`.
-    unusual : callable
-        Function that takes the inputs and the result, and yields the warnings about unusual values.
-
-    Returns
-    -------
-    callable
-        The solver with these guards. Users call this solver. In addition to the errors of `solve`, this solver raises
-        InvalidInput (`out_of_range`) with the dotted name of the input that is outside its range.
-    """
+    """Return a solver that rejects inputs outside their declared ranges and warns of unusual values."""
 
     @wraps(solve)
     def guarded_solve(inputs: I, /, *args: P.args, **kwargs: P.kwargs) -> R:

@@ -125,10 +125,7 @@ class Lubricant:
     def viscosity_at(self, pressure: float, temperature: float) -> float:
         """Return the viscosity [Pa s] at pressure [Pa] and temperature [K].
 
-        Raises
-        ------
-        InvalidInput
-            `viscosity_range` if the viscosity at this temperature and zero pressure exceeds 10^4 Pa s.
+        Raises InvalidInput: `viscosity_range` if the viscosity at this temperature and zero pressure exceeds 10^4 Pa s.
         """
         laws = self.laws
         logarithm = float(log_viscosity(laws, pressure_part(laws, 0.0)[0], temperature)[0])
@@ -187,24 +184,11 @@ class FluidLaws(NamedTuple):
 
 @kernel
 def pressure_part(laws: FluidLaws, pressure: float) -> tuple[float, float]:
-    """Compute the pressure term in the logarithm of the viscosity, and the derivative of this term.
+    """Compute the pressure term in the logarithm of the viscosity, and the derivative of this term (Eq. 20).
 
-    Parameters
-    ----------
-    laws : FluidLaws
-        Constants of the oil.
-    pressure : float
-        Pressure p [Pa]; a negative pressure, which occurs only during an iteration, counts as zero.
-
-    Returns
-    -------
-    tuple of float
-        Pressure term [-] and its derivative by pressure [1/Pa].
-
-    Notes
-    -----
-    Eq. 20. With the law of Roelands, the term is A1 (1 + 5.1e-9 p)^Z, where Z = alpha/(5.1e-9 A1) and
-    A1 = ln eta_0 + 9.67. With the law of Barus, the term is alpha p.
+    With the law of Roelands, the term is A1 (1 + 5.1e-9 p)^Z, where Z = alpha/(5.1e-9 A1) and A1 = ln eta_0 + 9.67.
+    With the law of Barus, the term is alpha p. `pressure`: pressure p [Pa]; a negative pressure, which occurs only
+    during an iteration, counts as zero.
     """
     p = max(pressure, 0.0)
     if laws.roelands == 1:
@@ -221,26 +205,10 @@ def pressure_part(laws: FluidLaws, pressure: float) -> tuple[float, float]:
 
 @kernel
 def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> tuple[float, float, float]:
-    """Compute the logarithm of the viscosity, and the derivatives of this logarithm.
+    """Compute the logarithm of the viscosity, and the derivatives of this logarithm (Eq. 20).
 
-    Parameters
-    ----------
-    laws : FluidLaws
-        Constants of the oil.
-    pressure_term : float
-        Pressure term, computed by `pressure_part` [-].
-    temperature : float
-        Temperature t [K].
-
-    Returns
-    -------
-    tuple of float
-        ln(eta/Pa s) [-], its derivative by the pressure term [-] and its derivative by temperature [1/K].
-
-    Notes
-    -----
-    Eq. 20. With the law of Roelands, ln eta = ln eta_0 + A1 {-1 + (1 + 5.1e-9 p)^Z [(t - 138)/(t_0 - 138)]^-S0}, where
-    S0 = beta (t_0 - 138)/A1. The paper prints S0 = beta/(A1 (t_0 - 138)), which has the wrong unit and would make the
+    With the law of Roelands, ln eta = ln eta_0 + A1 {-1 + (1 + 5.1e-9 p)^Z [(t - 138)/(t_0 - 138)]^-S0}, where S0 =
+    beta (t_0 - 138)/A1. The paper prints S0 = beta/(A1 (t_0 - 138)), which has the wrong unit and would make the
     viscosity almost independent of temperature; only the form used here gives -d ln eta/dt = beta at t_0. With the laws
     of Barus and Reynolds, ln eta = ln eta_0 + alpha p - beta (t - t_0).
     """
@@ -259,23 +227,8 @@ def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> 
 def density(laws: FluidLaws, pressure: float, temperature: float) -> tuple[float, float, float]:
     """Compute the density of the oil, and the derivatives of the density, with the formula of Dowson and Higginson.
 
-    Parameters
-    ----------
-    laws : FluidLaws
-        Constants of the oil.
-    pressure : float
-        Pressure p [Pa]; a negative pressure counts as zero.
-    temperature : float
-        Temperature [K].
-
-    Returns
-    -------
-    tuple of float
-        Density [kg/m^3], its derivative by pressure [kg/(m^3 Pa)] and its derivative by temperature [kg/(m^3 K)].
-
-    Notes
-    -----
-    Eq. 19.
+    Eq. 19. `pressure`: pressure p [Pa]; a negative pressure counts as zero. Returns density [kg/m^3], its derivative by
+    pressure [kg/(m^3 Pa)] and its derivative by temperature [kg/(m^3 K)].
     """
     p = max(pressure, 0.0)
     base = 1.0 + 1.7e-9 * p

@@ -50,25 +50,11 @@ same Y, the oil with the viscosity L at 40 C has the index 0, and the oil with t
 
 
 def viscosity_index(viscosity_40: float, viscosity_100: float) -> float:
-    """Compute the viscosity index of an oil.
+    """Compute the viscosity index of an oil [-].
 
-    Parameters
-    ----------
-    viscosity_40 : float
-        Kinematic viscosity U at 40 C [m^2/s].
-    viscosity_100 : float
-        Kinematic viscosity Y at 100 C [m^2/s].
-
-    Returns
-    -------
-    float
-        Viscosity index [-].
-
-    Notes
-    -----
-    Eq. R2: the index is 100 (L - U)/(L - H) if this value is at most 100. Otherwise the index is
-    100 + (10^N - 1)/0.00715 with N = log(H/U)/log Y. L and H follow from Y (see `REFERENCE_OILS`). If Y is below
-    2 mm^2/s, the standard defines no index. The first formula is then used with the first row of `REFERENCE_OILS`.
+    Eq. R2: the index is 100 (L - U)/(L - H) if this value is at most 100. Otherwise the index is 100 + (10^N -
+    1)/0.00715 with N = log(H/U)/log Y. L and H follow from Y (see `REFERENCE_OILS`). If Y is below 2 mm^2/s, the
+    standard defines no index. The first formula is then used with the first row of `REFERENCE_OILS`.
     """
     u, y = viscosity_40 / SQUARE_MILLIMETRE, viscosity_100 / SQUARE_MILLIMETRE
     _, low, high = max((row for row in REFERENCE_OILS if row[0] <= y), default=REFERENCE_OILS[0])
@@ -79,28 +65,9 @@ def viscosity_index(viscosity_40: float, viscosity_100: float) -> float:
 
 
 def viscosity_of_index(viscosity_40: float, index: float) -> float:
-    """Find the kinematic viscosity at 100 C of an oil with a given viscosity index.
+    """Find the kinematic viscosity at 100 C of an oil with a given viscosity index [m^2/s] (Eq. R2).
 
-    Parameters
-    ----------
-    viscosity_40 : float
-        Kinematic viscosity at 40 C [m^2/s].
-    index : float
-        Viscosity index [-].
-
-    Returns
-    -------
-    float
-        Kinematic viscosity at 100 C [m^2/s].
-
-    Raises
-    ------
-    InvalidInput
-        `viscosity_index` if no viscosity of at least 2 mm^2/s at 100 C leads to this index.
-
-    Notes
-    -----
-    Eq. R2.
+    Raises InvalidInput: `viscosity_index` if no viscosity of at least 2 mm^2/s at 100 C leads to this index.
     """
     thick = viscosity_40 / SQUARE_MILLIMETRE
 
@@ -241,12 +208,9 @@ class OilSheet:
     def __post_init__(self) -> None:
         """Refuse viscosities that no oil has.
 
-        Raises
-        ------
-        InvalidInput
-            `out_of_range` if the viscosity at 100 C is below 1 mm^2/s; `viscosity_order` if the viscosity at 100 C is
-            not lower than the viscosity at 40 C; `viscosity_index` if no oil has the viscosity index that follows from
-            both viscosities.
+        Raises InvalidInput: `out_of_range` if the viscosity at 100 C is below 1 mm^2/s; `viscosity_order` if the
+        viscosity at 100 C is not lower than the viscosity at 40 C; `viscosity_index` if no oil has the viscosity index
+        that follows from both viscosities.
         """
         thick, thin, field = self.kinematic_viscosity_40, self.kinematic_viscosity_100, _THIN
         if not thin >= LEAST_VISCOSITY_100:
@@ -265,26 +229,9 @@ class OilSheet:
             raise InvalidInput("viscosity_index", message, field)
 
     def kinematic_viscosity(self, temperature: float) -> float:
-        """Compute the kinematic viscosity with the Walther law through both given viscosities (ASTM D341).
+        """Compute the kinematic viscosity with the Walther law through both given viscosities (ASTM D341) [m^2/s].
 
-        Parameters
-        ----------
-        temperature : float
-            Temperature [K].
-
-        Returns
-        -------
-        float
-            Kinematic viscosity [m^2/s].
-
-        Raises
-        ------
-        InvalidInput
-            `oil_too_thick` if the viscosity exceeds 10^5 mm^2/s.
-
-        Notes
-        -----
-        Eq. R1.
+        Eq. R1. Raises InvalidInput: `oil_too_thick` if the viscosity exceeds 10^5 mm^2/s.
         """
         logarithm = self._logarithm(temperature)
         if logarithm > log10(LARGEST_VISCOSITY / SQUARE_MILLIMETRE):
@@ -307,58 +254,16 @@ class OilSheet:
         return viscosity_index(self.kinematic_viscosity_40, self.kinematic_viscosity_100)
 
     def density(self, temperature: float) -> float:
-        """Compute the density at a temperature.
-
-        Parameters
-        ----------
-        temperature : float
-            Temperature t [K].
-
-        Returns
-        -------
-        float
-            Density [kg/m^3].
-
-        Notes
-        -----
-        Eq. R3: rho = rho_15 [1 - 0.00065 (t - 15 C)].
-        """
+        """Compute the density at a temperature [kg/m^3]. Eq. R3: rho = rho_15 [1 - 0.00065 (t - 15 C)]."""
         return self.reference_density * (1.0 - THERMAL_EXPANSION * (temperature - DENSITY_TEMPERATURE))
 
     def viscosity(self, temperature: float) -> float:
-        """Compute the dynamic viscosity at a temperature.
-
-        Parameters
-        ----------
-        temperature : float
-            Temperature [K].
-
-        Returns
-        -------
-        float
-            Viscosity [Pa s].
-
-        Notes
-        -----
-        Eq. R3: eta = nu rho.
-        """
+        """Compute the dynamic viscosity at a temperature [Pa s]. Eq. R3: eta = nu rho."""
         return self.kinematic_viscosity(temperature) * self.density(temperature)
 
     def temperature_coefficient(self, temperature: float) -> float:
         """Compute the temperature-viscosity coefficient, or return the coefficient in the data sheet if there is one.
 
-        Parameters
-        ----------
-        temperature : float
-            Temperature t [K].
-
-        Returns
-        -------
-        float
-            Coefficient beta [1/K].
-
-        Notes
-        -----
         Eq. R4: beta = -d ln eta/dt, where eta is the density times the kinematic viscosity by the Walther law.
         """
         if self.temperature_viscosity is not None:
@@ -372,18 +277,6 @@ class OilSheet:
     def pressure_coefficient(self, temperature: float) -> float:
         """Compute Gold's pressure-viscosity coefficient, or use the coefficient in the data sheet if there is one.
 
-        Parameters
-        ----------
-        temperature : float
-            Temperature [K].
-
-        Returns
-        -------
-        float
-            Coefficient alpha [1/Pa].
-
-        Notes
-        -----
         Eq. R4: alpha = s nu^t in 1/GPa, with the kinematic viscosity nu in mm^2/s. `KindOfOil` states s and t. A
         coefficient at 38 C is converted by Eq. M3.
         """
@@ -470,26 +363,9 @@ def sheet_of_index(
 ) -> OilSheet:
     """Return an oil with a given viscosity at 40 C and a given viscosity index.
 
-    Parameters
-    ----------
-    viscosity_40 : float
-        Kinematic viscosity at 40 C [m^2/s].
-    viscosity_index : float, optional
-        Viscosity index; if None, a value typical of the kind is used [-].
-    kind : {"mineral", "pao", "ester", "polyglycol"}
-        Kind of oil.
-    density_15 : float, optional
-        Density at 15 C; if None, a value typical of the kind is used [kg/m^3].
-
-    Returns
-    -------
-    OilSheet
-        The oil.
-
-    Raises
-    ------
-    InvalidInput
-        `viscosity_index` if no oil of this viscosity has this index.
+    `viscosity_index`: viscosity index; if None, a value typical of the kind is used [-]; `density_15`: density at 15 C;
+    if None, a value typical of the kind is used [kg/m^3]. Raises InvalidInput: `viscosity_index` if no oil of this
+    viscosity has this index.
     """
     index = TYPICAL_INDEX[kind] if viscosity_index is None else viscosity_index
     return OilSheet(viscosity_40, viscosity_of_index(viscosity_40, index), kind, density_15)

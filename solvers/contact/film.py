@@ -13,57 +13,16 @@ Regime = Literal["boundary", "mixed", "full_film"]
 def dowson_higginson_minimum(
     *, viscosity: float, pressure_viscosity: float, mean_speed: Real, radius: Real, line_load: Real, modulus: float
 ) -> Real:
-    """Compute the minimum film thickness of a line contact by the formula of Dowson and Higginson (1966).
+    """Compute the minimum film thickness of a line contact by the formula of Dowson and Higginson (1966) [m].
 
-    Parameters
-    ----------
-    viscosity : float
-        Viscosity eta_0 of the oil at the inlet [Pa s].
-    pressure_viscosity : float
-        Pressure-viscosity coefficient alpha [1/Pa].
-    mean_speed : Real
-        Mean surface speed u = (u1 + u2)/2 [m/s].
-    radius : Real
-        Reduced radius R [m].
-    line_load : Real
-        Line load w, positive [N/m].
-    modulus : float
-        Reduced modulus E', see `hertz.reduced_modulus` [Pa].
-
-    Returns
-    -------
-    Real
-        Minimum film thickness h [m].
-
-    Notes
-    -----
-    Eq. 27: h = 2.65 alpha^0.54 (eta_0 u)^0.7 R^0.43/(E'^0.03 w^0.13).
+    Eq. 27: h = 2.65 alpha^0.54 (eta_0 u)^0.7 R^0.43/(E'^0.03 w^0.13). `line_load`: line load w, positive [N/m].
     """
     entrainment = (viscosity * mean_speed) ** 0.7 * radius**0.43
     return cast("Real", 2.65 * pressure_viscosity**0.54 * entrainment / (modulus**0.03 * line_load**0.13))
 
 
 def thickness_ratio(film: Real, roughness_1: float, roughness_2: float) -> Real:
-    """Compute the ratio of film thickness to roughness.
-
-    Parameters
-    ----------
-    film : Real
-        Film thickness h [m].
-    roughness_1 : float
-        Arithmetic mean roughness Ra_1 of the first surface [m].
-    roughness_2 : float
-        Arithmetic mean roughness Ra_2 of the second surface [m].
-
-    Returns
-    -------
-    Real
-        Ratio chi [-].
-
-    Notes
-    -----
-    Eq. 28: chi = h/sqrt(Ra_1^2 + Ra_2^2).
-    """
+    """Compute the ratio of film thickness to roughness [-]. Eq. 28: chi = h/sqrt(Ra_1^2 + Ra_2^2)."""
     return film / hypot(roughness_1, roughness_2)
 
 

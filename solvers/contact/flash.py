@@ -20,34 +20,11 @@ def blok_flash_temperature(
     solid_1: Solid,
     solid_2: Solid,
 ) -> Real:
-    """Compute the flash temperature of a line contact by Blok's formula.
+    """Compute the flash temperature of a line contact by Blok's formula [K].
 
-    Parameters
-    ----------
-    friction : float
-        Coefficient of friction f [-].
-    line_load : Real
-        Line load w [N/m].
-    speed_1 : Real
-        Speed u_1 of the first surface [m/s].
-    speed_2 : Real
-        Speed u_2 of the second surface [m/s].
-    half_width : Real
-        Half width b_0 of the Hertzian contact, positive [m].
-    solid_1 : Solid
-        Material of the first surface.
-    solid_2 : Solid
-        Material of the second surface.
-
-    Returns
-    -------
-    Real
-        Flash temperature t_f [K].
-
-    Notes
-    -----
     Eq. 25: t_f = 0.7858 f w |u_1 - u_2|/{[sqrt(lambda_1 rho_1 c_1 u_1) + sqrt(lambda_2 rho_2 c_2 u_2)] sqrt(b_0)}. The
-    factor 0.7858 is 1.1113/sqrt(2). In a formula with the full width 2 b_0, Blok's factor is 1.11.
+    factor 0.7858 is 1.1113/sqrt(2). In a formula with the full width 2 b_0, Blok's factor is 1.11. `half_width`: half
+    width b_0 of the Hertzian contact, positive [m].
     """
     conducted = np.sqrt(_conduction(solid_1) * speed_1) + np.sqrt(_conduction(solid_2) * speed_2)
     generated = friction * line_load * np.abs(speed_1 - speed_2)

@@ -16,70 +16,21 @@ def plane_strain_compliance(solid: Solid) -> float:
 
 
 def reduced_modulus(solid_1: Solid, solid_2: Solid) -> float:
-    """Compute the reduced modulus of two solids.
+    """Compute the reduced modulus of two solids [Pa].
 
-    Parameters
-    ----------
-    solid_1 : Solid
-        First solid.
-    solid_2 : Solid
-        Second solid.
-
-    Returns
-    -------
-    float
-        Reduced modulus E' [Pa].
-
-    Notes
-    -----
     Eq. E1: E' = 2/[(1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2]. The film formulas use the same definition of E'.
     """
     return 2.0 / (plane_strain_compliance(solid_1) + plane_strain_compliance(solid_2))
 
 
 def half_width(line_load: Real, radius: Real, modulus: float) -> Real:
-    """Compute the half width of a Hertzian line contact.
-
-    Parameters
-    ----------
-    line_load : Real
-        Line load w [N/m].
-    radius : Real
-        Reduced radius R [m].
-    modulus : float
-        Reduced modulus E' [Pa].
-
-    Returns
-    -------
-    Real
-        Half width b [m].
-
-    Notes
-    -----
-    Eqs. L14, E1: b = sqrt(8 w R/(pi E')).
-    """
+    """Compute the half width of a Hertzian line contact [m]. Eqs. L14, E1: b = sqrt(8 w R/(pi E'))."""
     return cast("Real", np.sqrt(8.0 * line_load * radius / (np.pi * modulus)))
 
 
 def maximum_pressure(line_load: Real, radius: Real, modulus: float) -> Real:
-    """Compute the largest pressure of a Hertzian line contact.
+    """Compute the largest pressure of a Hertzian line contact [Pa].
 
-    Parameters
-    ----------
-    line_load : Real
-        Line load w [N/m].
-    radius : Real
-        Reduced radius R [m].
-    modulus : float
-        Reduced modulus E' [Pa].
-
-    Returns
-    -------
-    Real
-        Pressure p_H at the centre of the contact [Pa].
-
-    Notes
-    -----
     Eq. E1: p_H = sqrt(w E'/(2 pi R)). The mean pressure is (pi/4) p_H.
     """
     return cast("Real", np.sqrt(line_load * modulus / (2.0 * np.pi * radius)))

@@ -177,26 +177,12 @@ def _state_at(misalignment: float, crowned: CouplingInputs, geometry: Geometry) 
 
 
 def crowning_window(state: Callable[[float], CrowningState]) -> tuple[float, float, str | None]:
-    """Find the smallest and the largest crowning ratio that meet every constraint.
+    """Find the smallest and the largest crowning ratio that meet every constraint (Eq. C32).
 
-    Parameters
-    ----------
-    state : Callable[[float], CrowningState]
-        Function that takes a crowning ratio and returns the constraints and the load capacity at this ratio.
-
-    Returns
-    -------
-    low : float
-        Smallest crowning ratio of the window [-].
-    high : float
-        Largest crowning ratio of the window [-].
-    failed : str or None
-        Name of the constraint that excludes every crowning ratio; None if the window is not empty.
-
-    Notes
-    -----
-    Eq. C32. The limits of overlap, pressure and width each set a lower bound of the crowning ratio. The condition that
-    the contact stays on the face sets the upper bound.
+    The limits of overlap, pressure and width each set a lower bound of the crowning ratio. The condition that the
+    contact stays on the face sets the upper bound. Returns `low`: smallest crowning ratio of the window [-]; `high`:
+    largest crowning ratio of the window [-]; `failed`: name of the constraint that excludes every crowning ratio; None
+    if the window is not empty.
     """
     low = MIN_CROWNING_RATIO
     for name, constraint in _LOWER_BOUNDS:

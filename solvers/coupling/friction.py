@@ -100,29 +100,12 @@ def loaded_mesh(inputs: CouplingInputs, mesh: MeshMotion) -> LoadedMesh:
 def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> tuple[float, float]:
     """Compute the axial thrust of one mesh, and the slack of this thrust.
 
-    Parameters
-    ----------
-    loaded : LoadedMesh
-        The mesh and its tooth sums.
-    friction : float
-        Coefficient of friction [-].
-    axial_velocity : float
-        Axial velocity of the hub relative to the sleeve [m/s].
-
-    Returns
-    -------
-    thrust : float
-        Axial thrust F_ax = sum mu F_n sgn(v_r) [N].
-    slack : float
-        Largest friction of the teeth without relative velocity [N]; the thrust may deviate by this force to either
-        side.
-
-    Notes
-    -----
     Eq. C19, the paper's general expression. Thrust and slack are averaged over the rotor angles. A tooth without
     relative velocity may carry any friction between -mu F_n and mu F_n. The thrust counts this friction as zero, and
     the slack counts it as mu F_n. Without axial velocity the thrust is zero, because half a turn later every tooth has
-    the same load and slides in the opposite direction.
+    the same load and slides in the opposite direction. Returns `thrust`: axial thrust F_ax = sum mu F_n sgn(v_r) [N];
+    `slack`: largest friction of the teeth without relative velocity [N]; the thrust may deviate by this force to either
+    side.
     """
     scale, sums = friction / cos(loaded.motion.pressure_angle), loaded.sums
     force = without_rounding(sums.axial, sums.load) if axial_velocity != 0.0 else 0.0
@@ -130,26 +113,11 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
 
 
 def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocity: float) -> float:
-    """Compute the axial thrust of many teeth with equal loads.
+    """Compute the axial thrust of many teeth with equal loads (Eq. C21).
 
-    Parameters
-    ----------
-    limit : float
-        Coaxial limit F_max of the thrust [N].
-    axial_velocity : float
-        Axial velocity v_ax of the hub relative to the sleeve [m/s].
-    max_sliding_velocity : float
-        Largest sliding velocity v_Gmax [m/s].
-
-    Returns
-    -------
-    float
-        Thrust F_max (2/pi) asin(v_ax/v_Gmax) [N]; the thrust is F_max if v_ax exceeds v_Gmax.
-
-    Notes
-    -----
-    Eq. C21. For a centred sleeve without pitch deviations this thrust is an upper bound, because the actual load is
-    concentrated on the teeth that slide fastest.
+    For a centred sleeve without pitch deviations this thrust is an upper bound, because the actual load is concentrated
+    on the teeth that slide fastest. Returns thrust F_max (2/pi) asin(v_ax/v_Gmax) [N]; the thrust is F_max if v_ax
+    exceeds v_Gmax.
     """
     if axial_velocity == 0.0:
         return 0.0
@@ -167,26 +135,8 @@ def customary_thrust(operation: Operation) -> float | None:
 
 
 def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: float, factor: float) -> float:
-    """Compute the self-induced thrust with a parallel offset and one pair of opposite teeth per mesh.
+    """Compute the self-induced thrust with a parallel offset and one pair of opposite teeth per mesh [N].
 
-    Parameters
-    ----------
-    coupling : Coupling
-        The coupling.
-    torque : float
-        Torque [N m].
-    friction : float
-        Coefficient of friction [-].
-    factor : float
-        Factor kappa: the difference between the normal forces of both teeth, divided by the lateral force [-].
-
-    Returns
-    -------
-    float
-        Thrust 2 kappa mu^2 T/(l_H cos alpha) [N].
-
-    Notes
-    -----
     Fig. 13; Eq. C23. Each of the two teeth of a mesh carries T/(d_o cos alpha). The moment of friction is M_2 = 2 F_R
     d_o, where F_R is the friction of one tooth. This moment would overturn the sleeve. The lateral force F_1 = M_2/l_H
     at each mesh prevents this. Because of the lateral force, the normal forces of the two teeth of a mesh differ by
@@ -196,26 +146,10 @@ def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: floa
 
 
 def uniform_self_induced_thrust(coupling: Coupling, torque: float, friction: float) -> float:
-    """Compute the self-induced thrust with a parallel offset and equal loads on all teeth.
+    """Compute the self-induced thrust with a parallel offset and equal loads on all teeth [N] (Eq. C24).
 
-    Parameters
-    ----------
-    coupling : Coupling
-        The coupling.
-    torque : float
-        Torque [N m].
-    friction : float
-        Coefficient of friction [-].
-
-    Returns
-    -------
-    float
-        Thrust (16/pi^2) mu^2 T tan(alpha)/l_H [N].
-
-    Notes
-    -----
-    Eq. C24. The overturning moment is M_2 = (4/pi) mu T/cos alpha. If the tooth springs are equally stiff in all
-    lateral directions, the ratio kappa of `simple_self_induced_thrust` is (4/pi) sin alpha.
+    The overturning moment is M_2 = (4/pi) mu T/cos alpha. If the tooth springs are equally stiff in all lateral
+    directions, the ratio kappa of `simple_self_induced_thrust` is (4/pi) sin alpha.
     """
     return 16.0 / pi**2 * friction**2 * torque * tan(coupling.pressure_angle) / coupling.hub_distance
 
@@ -273,32 +207,14 @@ def self_induced_thrust(inputs: CouplingInputs, geometry: Geometry, friction: fl
 
 
 def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float) -> Losses:
-    """Compute the friction power of a mesh and the moments on the driving hub.
+    """Compute the friction power of a mesh and the moments on the driving hub (Eqs. C25, C28).
 
-    Parameters
-    ----------
-    inputs : CouplingInputs
-        Coupling, operating point and model.
-    geometry : Geometry
-        Radii of the coupling.
-    loaded : LoadedMesh
-        The mesh and its tooth sums.
-    friction : float
-        Coefficient of friction [-].
-
-    Returns
-    -------
-    Losses
-        Friction power P = sum mu F_n |v_r| [W] and moments [N m], with v_r = v_ax + v_G.
-
-    Notes
-    -----
-    Eqs. C25, C28. The relative velocity v_r is the sum of the axial velocity v_ax and the sliding velocity v_G due to
-    the tilt. The moment of friction M_f acts about the pivot direction, against the tilting motion. This moment is
-    M_f = r_o sum mu F_n sgn(v_r) sgn(v_G1) sin phi, where phi is the tooth angle and v_G1 is v_G at phi = 90 degrees.
-    Hence the friction power is P = M_f omega delta + F_ax v_ax. M_f is zero without a tilt. M_f is undetermined if
-    nothing slides at all. The power balance shows that the difference M_f - T delta/2 bends the driving hub. This holds
-    for every load distribution.
+    The relative velocity v_r is the sum of the axial velocity v_ax and the sliding velocity v_G due to the tilt. The
+    moment of friction M_f acts about the pivot direction, against the tilting motion. This moment is M_f = r_o sum mu
+    F_n sgn(v_r) sgn(v_G1) sin phi, where phi is the tooth angle and v_G1 is v_G at phi = 90 degrees. Hence the friction
+    power is P = M_f omega delta + F_ax v_ax. M_f is zero without a tilt. M_f is undetermined if nothing slides at all.
+    The power balance shows that the difference M_f - T delta/2 bends the driving hub. This holds for every load
+    distribution.
     """
     operation, sums = inputs.operation, loaded.sums
     scale = friction / cos(inputs.coupling.pressure_angle)
@@ -320,57 +236,23 @@ def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, frict
 
 
 def equal_loads_friction_moment(coaxial_limit: float, pitch_radius: float) -> float:
-    """Compute the moment with which friction resists a tilt if all tooth loads are equal.
+    """Compute the moment with which friction resists a tilt if all tooth loads are equal [N m] (Eq. C26).
 
-    Parameters
-    ----------
-    coaxial_limit : float
-        Coaxial limit of the thrust, mu T/(r_o cos alpha) [N].
-    pitch_radius : float
-        Pitch radius r_o [m].
-
-    Returns
-    -------
-    float
-        Moment (2/pi) mu T/cos(alpha) [N m].
-
-    Notes
-    -----
-    Eq. C26.
+    Returns moment (2/pi) mu T/cos(alpha) [N m].
     """
     return 2.0 / pi * pitch_radius * coaxial_limit
 
 
 def contact_shift_moment(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh) -> float:
-    """Compute the moment of the tooth forces about the tilt axis.
+    """Compute the moment of the tooth forces about the tilt axis [N m] (Eq. C27).
 
-    This moment arises because the tooth forces do not act at the middle of the face.
-
-    Parameters
-    ----------
-    inputs : CouplingInputs
-        Coupling, operating point and model.
-    geometry : Geometry
-        Radii of the coupling.
-    loaded : LoadedMesh
-        The mesh and its tooth sums.
-
-    Returns
-    -------
-    float
-        Moment M_s = |sum z_c F_n n_x| [N m].
-
-    Notes
-    -----
-    Eq. C27. Here z_c is the axial position of the contact, and n_x is the x component of the flank normal n. With both
-    kinematics the moment M_s equals sum F_t df_t/d delta.
-
-    With `tangential` kinematics, z_c is the contact position s_1 on the hub flank, and n_x contains only the tangential
-    part of n. If all tooth loads are equal, the moment M_s is then R_t delta T/(2 r_o).
-
-    With `spatial` kinematics, z_c is the contact position in the frame of the sleeve, which is s_1 - delta r_o cos phi.
-    The component n_x then contains the tangential and the radial part of n. The y components of n cause a further
-    moment T delta/2 about the pivot direction. The power balance of the hub already contains this further moment.
+    This moment arises because the tooth forces do not act at the middle of the face. Here z_c is the axial position of
+    the contact, and n_x is the x component of the flank normal n. With both kinematics the moment M_s equals sum F_t
+    df_t/d delta. With `tangential` kinematics, z_c is the contact position s_1 on the hub flank, and n_x contains only
+    the tangential part of n. If all tooth loads are equal, the moment M_s is then R_t delta T/(2 r_o). With `spatial`
+    kinematics, z_c is the contact position in the frame of the sleeve, which is s_1 - delta r_o cos phi. The component
+    n_x then contains the tangential and the radial part of n. The y components of n cause a further moment T delta/2
+    about the pivot direction. The power balance of the hub already contains this further moment.
     """
     motion, sums = loaded.motion, loaded.sums
     arm_sin, arm_cos, normal_sin, normal_cos = motion.travel_sin, 0.0, -motion.side, 0.0

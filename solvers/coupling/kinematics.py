@@ -31,25 +31,13 @@ def pitch_radius(coupling: Coupling) -> float:
 
 
 def tooth_geometry(coupling: Coupling) -> Geometry:
-    """Compute the pitch, crowning and flank radii.
+    """Compute the pitch, crowning and flank radii [m] (Eq. C1).
 
-    Parameters
-    ----------
-    coupling : Coupling
-        The coupling.
-
-    Returns
-    -------
-    Geometry
-        Pitch radius, crowning radius and both flank radii [m].
-
-    Notes
-    -----
-    Eq. C1. The centre of the cutter moves on a circle with the crowning radius r_b. At the axial distance zeta from the
-    middle of the face, the cutter is therefore fed radially by zeta^2/(2 r_b). The flank recedes tangentially by this
-    feed times tan(alpha), and along the flank normal by this feed times sin(alpha). Hence the flank radius is
-    r_b/tan(alpha) in the tangential plane and r_b/sin(alpha) in the plane of action. The radius in the plane of action
-    is Pahl's "pressure line radius" R_e.
+    The centre of the cutter moves on a circle with the crowning radius r_b. At the axial distance zeta from the middle
+    of the face, the cutter is therefore fed radially by zeta^2/(2 r_b). The flank recedes tangentially by this feed
+    times tan(alpha), and along the flank normal by this feed times sin(alpha). Hence the flank radius is r_b/tan(alpha)
+    in the tangential plane and r_b/sin(alpha) in the plane of action. The radius in the plane of action is Pahl's
+    "pressure line radius" R_e.
     """
     radius = pitch_radius(coupling)
     crowning_radius = coupling.crowning_ratio * radius
@@ -116,42 +104,17 @@ def tooth_positions(rotor_angles: FloatArray, teeth: int) -> ToothPositions:
 def mesh_motion(
     coupling: Coupling, geometry: Geometry, operation: Operation, model: KinematicModel, *, side: int = 1, tilt: int = 1
 ) -> MeshMotion:
-    """Compute the harmonic coefficients of one mesh.
+    """Compute the harmonic coefficients of one mesh (Eqs. C3, C5).
 
-    Parameters
-    ----------
-    coupling : Coupling
-        The coupling.
-    geometry : Geometry
-        Radii of the coupling.
-    operation : Operation
-        Operating point; its speed and misalignment are used.
-    model : KinematicModel
-        `spatial` or `tangential` kinematics.
-    side : int
-        +1 if the hub drives the sleeve, -1 if the sleeve drives the hub.
-    tilt : int
-        +1 or -1; the tilt of the hub is the misalignment times this number.
-
-    Returns
-    -------
-    MeshMotion
-        Coefficients of sliding velocity, contact position and tangential displacement.
-
-    Notes
-    -----
-    Eqs. C3, C5. The contact position is s_1, and the tangential displacement is f_t. Here phi is the tooth angle, delta
-    is the tilt angle, eps is the crowning ratio, alpha is the pressure angle, and n is the flank normal. The radii r_o,
-    R_e and R_t are those of `Geometry`.
-
-    With `spatial` kinematics s_1 = R_e delta n_x. If `side` is +1,
-    f_t = r_o delta^2/(2 cos alpha) sin(phi - alpha) [eps sin(phi - alpha)/sin alpha + cos phi]. If `side` is -1,
-    pi - phi takes the place of phi in this formula. The formulas are exact to leading order in delta, as a numerical
-    calculation with exact involutes has confirmed.
-
-    With `tangential` kinematics only the tilt is considered, without the pivot motion: s_1 = -side R_t delta sin phi
-    and f_t = R_t delta^2/2 sin^2 phi. The paper describes the tangential model in words. In the tangential model the
-    sliding velocity and the displacement are largest where the travel of the contact reverses.
+    The contact position is s_1, and the tangential displacement is f_t. Here phi is the tooth angle, delta is the tilt
+    angle, eps is the crowning ratio, alpha is the pressure angle, and n is the flank normal. The radii r_o, R_e and R_t
+    are those of `Geometry`. With `spatial` kinematics s_1 = R_e delta n_x. If `side` is +1, f_t = r_o delta^2/(2 cos
+    alpha) sin(phi - alpha) [eps sin(phi - alpha)/sin alpha + cos phi]. If `side` is -1, pi - phi takes the place of phi
+    in this formula. The formulas are exact to leading order in delta, as a numerical calculation with exact involutes
+    has confirmed. With `tangential` kinematics only the tilt is considered, without the pivot motion: s_1 = -side R_t
+    delta sin phi and f_t = R_t delta^2/2 sin^2 phi. The paper describes the tangential model in words. In the
+    tangential model the sliding velocity and the displacement are largest where the travel of the contact reverses.
+    `side`: +1 if the hub drives the sleeve, -1 if the sleeve drives the hub.
     """
     delta = tilt * operation.misalignment
     alpha, ratio, radius = coupling.pressure_angle, coupling.crowning_ratio, geometry.pitch_radius
@@ -171,24 +134,7 @@ def mesh_motion(
 
 
 def sliding_velocity(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Compute the axial sliding velocity of the hub relative to the sleeve.
-
-    Parameters
-    ----------
-    mesh : MeshMotion
-        Motion of the mesh.
-    teeth : ToothPositions
-        Positions of the teeth.
-
-    Returns
-    -------
-    FloatArray
-        Sliding velocity v_G = delta omega r_o sin phi, in the shape of the positions [m/s].
-
-    Notes
-    -----
-    Fig. 12; Eq. C2.
-    """
+    """Compute the axial sliding velocity of the hub relative to the sleeve [m/s]. Fig. 12; Eq. C2."""
     return mesh.sliding * teeth.sine
 
 
@@ -198,71 +144,23 @@ def relative_velocity(mesh: MeshMotion, teeth: ToothPositions, axial_velocity: f
 
 
 def contact_position(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Compute the axial position of the contact on the hub flank.
-
-    Parameters
-    ----------
-    mesh : MeshMotion
-        Motion of the mesh.
-    teeth : ToothPositions
-        Positions of the teeth.
-
-    Returns
-    -------
-    FloatArray
-        Contact position s_1, in the shape of the positions [m].
-
-    Notes
-    -----
-    Eq. C3.
-    """
+    """Compute the axial position of the contact on the hub flank [m] (Eq. C3)."""
     return mesh.travel_sin * teeth.sine + mesh.travel_cos * teeth.cosine
 
 
 def hydrodynamic_velocity(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Compute the hydrodynamic velocity at each tooth.
+    """Compute the hydrodynamic velocity at each tooth [m/s] (Eq. C6).
 
-    Parameters
-    ----------
-    mesh : MeshMotion
-        Motion of the mesh.
-    teeth : ToothPositions
-        Positions of the teeth.
-
-    Returns
-    -------
-    FloatArray
-        Magnitude v_H of the sum of both surface velocities relative to the contact [m/s].
-
-    Notes
-    -----
-    Eq. C6. Let s_1' be the rate of change of the contact position s_1, and let v_G be the sliding velocity. The contact
-    moves with the velocity s_1' on the hub flank, and with the velocity s_1' + v_G on the sleeve flank. The constant
-    2.447 in the load capacity applies to the sum of both velocities, not to the mean of both.
+    Let s_1' be the rate of change of the contact position s_1, and let v_G be the sliding velocity. The contact moves
+    with the velocity s_1' on the hub flank, and with the velocity s_1' + v_G on the sleeve flank. The constant 2.447 in
+    the load capacity applies to the sum of both velocities, not to the mean of both.
     """
     contact_velocity = mesh.speed * (mesh.travel_sin * teeth.cosine - mesh.travel_cos * teeth.sine)
     return np.abs(2.0 * contact_velocity + mesh.sliding * teeth.sine)
 
 
 def tangential_displacement(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Compute the tangential displacement of the hub tooth against the sleeve tooth.
-
-    Parameters
-    ----------
-    mesh : MeshMotion
-        Motion of the mesh.
-    teeth : ToothPositions
-        Positions of the teeth.
-
-    Returns
-    -------
-    FloatArray
-        Displacement f_t, largest at the tooth that comes under load first [m].
-
-    Notes
-    -----
-    Eq. C5.
-    """
+    """Compute the tangential displacement of the hub tooth against the sleeve tooth [m] (Eq. C5)."""
     s, c = teeth.sine, teeth.cosine
     if mesh.mixed == 0.0 and mesh.pivot == 0.0:
         return mesh.tilt * (s * s)
@@ -278,21 +176,9 @@ def max_contact_travel(mesh: MeshMotion) -> float:
 
 
 def max_hydrodynamic_velocity(mesh: MeshMotion) -> float:
-    """Compute the largest hydrodynamic velocity over one revolution.
+    """Compute the largest hydrodynamic velocity over one revolution [m/s] (Eq. C6).
 
-    Parameters
-    ----------
-    mesh : MeshMotion
-        Motion of the mesh.
-
-    Returns
-    -------
-    float
-        Largest hydrodynamic velocity v_Hmax [m/s].
-
-    Notes
-    -----
-    Eq. C6. The sum of both surface velocities is a single harmonic of the tooth angle; v_Hmax is its amplitude.
+    The sum of both surface velocities is a single harmonic of the tooth angle; v_Hmax is its amplitude.
     """
     return hypot(2.0 * mesh.speed * mesh.travel_sin, mesh.sliding - 2.0 * mesh.speed * mesh.travel_cos)
 
@@ -329,22 +215,8 @@ def kinematics(mesh: MeshMotion) -> Kinematics:
 
 
 def flank_normals(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Compute the normals of the loaded flanks, divided by cos(alpha).
+    """Compute the normals of the loaded flanks, divided by cos(alpha) [-].
 
-    Parameters
-    ----------
-    mesh : MeshMotion
-        Motion of the mesh.
-    teeth : ToothPositions
-        Positions of the teeth, shape (rotor angles, teeth).
-
-    Returns
-    -------
-    FloatArray
-        Components along x and y, shape (rotor angles, 2, teeth) [-].
-
-    Notes
-    -----
     Eq. C4: n = side cos(alpha) e_t + sin(alpha) e_r. The factor `side` is +1 if the hub drives the sleeve, and -1 if
     the sleeve drives the hub. The tangential tooth force times n/cos(alpha) is the lateral force of the tooth on the
     sleeve. The radial part of this force points outward in both cases.

@@ -108,29 +108,10 @@ def _largest_forces(inputs: CouplingInputs, mesh: MeshMotion, teeth: ToothPositi
 
 
 def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -> tuple[float, float]:
-    """Compute the Hertzian contact between a plane and a cylinder of radius R_e.
+    """Compute the Hertzian contact between a plane and a cylinder of radius R_e (Eq. C12).
 
-    The length of the cylinder is the tooth height.
-
-    Parameters
-    ----------
-    coupling : Coupling
-        The coupling.
-    geometry : Geometry
-        Radii of the coupling.
-    normal_force : float
-        Normal tooth force [N].
-
-    Returns
-    -------
-    half_width : float
-        Half contact width a_HZ [m].
-    pressure : float
-        Largest Hertzian pressure [Pa].
-
-    Notes
-    -----
-    Eq. C12.
+    The length of the cylinder is the tooth height. Returns `half_width`: half contact width a_HZ [m]; `pressure`:
+    largest Hertzian pressure [Pa].
     """
     steel = Solid(youngs_modulus=coupling.youngs_modulus, poisson_ratio=coupling.poisson_ratio)
     modulus = reduced_modulus(steel, steel)
@@ -157,29 +138,16 @@ def inlet_length(model: ModelOptions, face_width: float, max_travel: float) -> f
 
 @kernel
 def starved_load(inlet_ratio: float) -> float:
-    """Compute the dimensionless load of a parabolic gap with a starved inlet.
+    """Compute the dimensionless load of a parabolic gap with a starved inlet [-] (Eqs. C15, C16).
 
-    Parameters
-    ----------
-    inlet_ratio : float
-        Inlet ratio B; the pressure starts at x = -B sqrt(2 R h_0) [-].
-
-    Returns
-    -------
-    float
-        Load W(B) in units of 12 h_trag eta v_H R_e/h_0 [-].
-
-    Notes
-    -----
-    Eqs. C15, C16. The gap is h_0 + x^2/(2 R). Here h_0 is the smallest gap, x is the distance from the smallest gap in
-    the direction of flow, and R is the flank radius R_e. The other symbols in the unit of the load are those of
-    `hydrodynamic_capacity`.
-
-    The Reynolds equation for rigid surfaces and constant viscosity is solved in closed form. At the exit
-    x = tan(g) sqrt(2 R h_0), the pressure and its gradient are zero. This condition is
-    [A2(g) + A2(g_B)] cos^2 g = A4(g) + A4(g_B), where tan g_B = B. A2(g) and A4(g) are the integrals of cos^2 and cos^4
-    from zero to g. Bisection finds g in (0, g_B). The load is W = (1 - H_m/H_B)^2/(4 H_m), where H_m and H_B are the
-    gaps at exit and inlet, divided by the smallest gap h_0.
+    The gap is h_0 + x^2/(2 R). Here h_0 is the smallest gap, x is the distance from the smallest gap in the direction
+    of flow, and R is the flank radius R_e. The other symbols in the unit of the load are those of
+    `hydrodynamic_capacity`. The Reynolds equation for rigid surfaces and constant viscosity is solved in closed form.
+    At the exit x = tan(g) sqrt(2 R h_0), the pressure and its gradient are zero. This condition is [A2(g) + A2(g_B)]
+    cos^2 g = A4(g) + A4(g_B), where tan g_B = B. A2(g) and A4(g) are the integrals of cos^2 and cos^4 from zero to g.
+    Bisection finds g in (0, g_B). The load is W = (1 - H_m/H_B)^2/(4 H_m), where H_m and H_B are the gaps at exit and
+    inlet, divided by the smallest gap h_0. `inlet_ratio`: inlet ratio B; the pressure starts at x = -B sqrt(2 R h_0)
+    [-].
     """
     inlet = atan(inlet_ratio)
     a2 = inlet / 2.0 + sin(2.0 * inlet) / 4.0
@@ -202,18 +170,6 @@ def starved_load(inlet_ratio: float) -> float:
 def inlet_factor(inlet_ratio: float) -> float:
     """Compute the load capacity with a starved inlet, divided by the load capacity with an infinitely long inlet.
 
-    Parameters
-    ----------
-    inlet_ratio : float
-        Inlet ratio B [-].
-
-    Returns
-    -------
-    float
-        Factor f(B) between 0 and 1 [-].
-
-    Notes
-    -----
     Fig. 8; Eq. C16.
     """
     if inlet_ratio < 0.02:
@@ -225,32 +181,9 @@ def inlet_factor(inlet_ratio: float) -> float:
 def hydrodynamic_capacity(
     tooth_height: float, viscosity: float, velocity: float, radius: float, film: float, factor: float
 ) -> float:
-    """Compute the hydrodynamic load capacity of a tooth.
+    """Compute the hydrodynamic load capacity of a tooth [N] (Eq. C14).
 
-    Parameters
-    ----------
-    tooth_height : float
-        Load-carrying tooth height h_trag [m].
-    viscosity : float
-        Dynamic viscosity eta [Pa s].
-    velocity : float
-        Hydrodynamic velocity v_H [m/s].
-    radius : float
-        Flank radius R_e in the plane of action [m].
-    film : float
-        Film thickness h_0 at which the capacity is stated [m].
-    factor : float
-        Inlet factor f(b_I) [-].
-
-    Returns
-    -------
-    float
-        Load capacity F_HD = 2.447 h_trag eta v_H R_e/h_0 f(b_I) [N].
-
-    Notes
-    -----
-    Eq. C14. Fig. 8 prints the "h" of h_trag above the fraction bar and the index "trag" below the bar, which is a
-    misprint.
+    Fig. 8 prints the "h" of h_trag above the fraction bar and the index "trag" below the bar, which is a misprint.
     """
     return 12.0 * UNBOUNDED_LOAD * tooth_height * viscosity * velocity * radius / film * factor
 
@@ -267,27 +200,7 @@ def film_velocity(mesh: MeshMotion, angle: float | None) -> float:
 
 
 def film_state(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMotion) -> FilmState:
-    """Compute the contact overlap and the load capacity coefficient of one mesh.
-
-    Parameters
-    ----------
-    inputs : CouplingInputs
-        Coupling, operating point, oil and model.
-    geometry : Geometry
-        Radii of the coupling.
-    mesh : MeshMotion
-        Motion of the mesh.
-
-    Returns
-    -------
-    FilmState
-        Overlap Pu = a_HZ/s_1max and load capacity coefficient Tr = F_HD/F_n,max [-], and the values from which Pu
-        and Tr follow.
-
-    Notes
-    -----
-    Eq. C13.
-    """
+    """Compute the contact overlap and the load capacity coefficient of one mesh (Eq. C13)."""
     coupling, lubricant = inputs.coupling, inputs.lubricant
     travel, radius = max_contact_travel(mesh), geometry.normal_flank_radius
     force = max_normal_force(inputs, mesh)
@@ -349,23 +262,9 @@ def _distance_to_boundary(overlap: float, load_capacity_coefficient: float) -> f
 
 
 def mixed_friction(law: MixedFrictionCurve | MixedFrictionTable, sliding_velocity: float) -> float:
-    """Compute the coefficient of friction in area 1.1 (mixed lubrication) of the friction map.
+    """Compute the coefficient of friction in area 1.1 (mixed lubrication) of the friction map [-] (Eq. C17).
 
-    Parameters
-    ----------
-    law : MixedFrictionCurve or MixedFrictionTable
-        Coefficient of mixed friction as a function of the sliding velocity.
-    sliding_velocity : float
-        Largest sliding velocity [m/s].
-
-    Returns
-    -------
-    float
-        Coefficient of friction [-].
-
-    Notes
-    -----
-    Eq. C17. The paper shows the curve in Fig. 10, but does not print points of the curve.
+    The paper shows the curve in Fig. 10, but does not print points of the curve.
     """
     if isinstance(law, MixedFrictionTable):
         return float(np.interp(sliding_velocity, law.sliding_velocity, law.coefficient))
@@ -409,31 +308,13 @@ def _poorly_supplied(overlap: float, load_capacity_coefficient: float) -> float:
 
 
 def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: float, lowest: float) -> float:
-    """Compute the coefficient of friction, which is continuous over the whole friction map.
+    """Compute the coefficient of friction, which is continuous over the whole friction map [-] (Eq. C18).
 
-    Parameters
-    ----------
-    overlap : float
-        Contact overlap Pu [-].
-    load_capacity_coefficient : float
-        Load capacity coefficient Tr [-].
-    mixed : float
-        Coefficient of mixed friction at the present sliding velocity [-].
-    lowest : float
-        Smallest coefficient of mixed friction at any sliding velocity [-].
-
-    Returns
-    -------
-    float
-        Coefficient of friction [-].
-
-    Notes
-    -----
-    Eq. C18. The paper states only a band of friction for each area. The law used here interpolates between the end
-    values of these bands. The law lies inside the bands of areas 1.1, 1.3, 2.1, 2.2, 2.3 and 3.1. In area 1.2 the law
-    is a smooth transition from area 1.1 to area 1.3. Near overlap 1 the law may leave the band of area 3.2; according
-    to the paper itself, the boundaries of the areas are not sharp ("fluid"). The coefficient of friction never rises
-    when the load capacity coefficient rises.
+    The paper states only a band of friction for each area. The law used here interpolates between the end values of
+    these bands. The law lies inside the bands of areas 1.1, 1.3, 2.1, 2.2, 2.3 and 3.1. In area 1.2 the law is a smooth
+    transition from area 1.1 to area 1.3. Near overlap 1 the law may leave the band of area 3.2; according to the paper
+    itself, the boundaries of the areas are not sharp ("fluid"). The coefficient of friction never rises when the load
+    capacity coefficient rises.
     """
     if overlap > 2.0:
         return _poorly_supplied(overlap, load_capacity_coefficient)

@@ -133,37 +133,15 @@ def balance_sleeve(
     places: Places,
     ahead: FloatArray,
 ) -> float:
-    """Solve Phi(g) = g at one rotor angle; the solution replaces the start values.
+    """Solve Phi(g) = g at one rotor angle; the solution replaces the start values (Eq. C22).
 
-    Parameters
-    ----------
-    interference : FloatArray
-        Interference at rest, shape (2, teeth) [T/(r_o c_t)].
-    normal : FloatArray
-        Flank normals divided by cos(alpha), shape (2, 2, teeth) [-].
-    arm : FloatArray
-        Direction of friction times the tooth's position, shape (2, 2, teeth) [-].
-    lever : float
-        Ratio (mu/cos alpha)(r_o/l_H) [-].
-    force_limit : float
-        Largest lateral force that the iteration tries [T/r_o].
-    force : FloatArray
-        Start value of the force g, shape (2,); replaced by the solution [T/r_o].
-    places : Places
-        Start values of the rotation and the displacement of both meshes; replaced by the solution [T/(r_o c_t)].
-    ahead : FloatArray
-        Receives the interference of the balanced meshes, shape (2, teeth) [T/(r_o c_t)].
-
-    Returns
-    -------
-    float
-        Residual |Phi(g) - g| [T/r_o]; inf if a mesh cannot hold the force.
-
-    Notes
-    -----
-    Eq. C22. Each step of Newton's method is shortened until the residual falls. If shortening fails, some damped
-    fixed-point steps (substitutions) follow. These steps are necessary because Phi is piecewise linear (teeth come
-    under load), and Newton's method may cycle between the linear pieces.
+    Each step of Newton's method is shortened until the residual falls. If shortening fails, some damped fixed-point
+    steps (substitutions) follow. These steps are necessary because Phi is piecewise linear (teeth come under load), and
+    Newton's method may cycle between the linear pieces. `interference`: interference at rest, shape (2, teeth) [T/(r_o
+    c_t)]; `normal`: flank normals divided by cos(alpha), shape (2, 2, teeth) [-]; `arm`: direction of friction times
+    the tooth's position, shape (2, 2, teeth) [-]; `force`: start value of the force g, shape (2,); replaced by the
+    solution [T/r_o]; `ahead`: receives the interference of the balanced meshes, shape (2, teeth) [T/(r_o c_t)]. Returns
+    residual |Phi(g) - g| [T/r_o]; inf if a mesh cannot hold the force.
     """
     accepted_x, accepted_y, step_x, step_y = 0.0, 0.0, 0.0, 0.0
     accepted_residual, length, substitutions = np.inf, 1.0, 0
@@ -256,38 +234,15 @@ def two_meshes(inputs: CouplingInputs, geometry: Geometry) -> tuple[MeshMotion, 
 def sleeve_equilibrium(
     inputs: CouplingInputs, geometry: Geometry, friction: float, axial_velocity: float
 ) -> SleeveEquilibrium:
-    """Compute the thrust and the overturning moment of two meshes.
+    """Compute the thrust and the overturning moment of two meshes (Eq. C22).
 
-    Parameters
-    ----------
-    inputs : CouplingInputs
-        Coupling, operating point and model.
-    geometry : Geometry
-        Radii of the coupling.
-    friction : float
-        Coefficient of friction [-].
-    axial_velocity : float
-        Axial velocity at each mesh, positive if the shafts move apart [m/s].
-
-    Returns
-    -------
-    SleeveEquilibrium
-        Thrust [N] and overturning moment [N m]; both are zero if nothing slides.
-
-    Raises
-    ------
-    NoSolution
-        `sleeve_equilibrium` if the tooth forces cannot hold the moment of friction.
-
-    Notes
-    -----
-    Eq. C22. Nothing slides if the axial velocity is zero and, in addition, the misalignment or the speed is zero. The
-    direction of friction is then undetermined.
-
-    If mu d_o/l_H < cos(pi/z), an equilibrium always exists. A lateral force g on the
+    Nothing slides if the axial velocity is zero and, in addition, the misalignment or the speed is zero. The direction
+    of friction is then undetermined. If mu d_o/l_H < cos(pi/z), an equilibrium always exists. A lateral force g on the
     sleeve changes the tooth forces, and with them the moments of friction. Let Phi(g) be the lateral force that
-    balances these moments. For every force g that the teeth can hold, the teeth can also hold the
-    force Phi(g). By Brouwer's fixed-point theorem, Phi(g) = g then has a solution.
+    balances these moments. For every force g that the teeth can hold, the teeth can also hold the force Phi(g). By
+    Brouwer's fixed-point theorem, Phi(g) = g then has a solution. `axial_velocity`: axial velocity at each mesh,
+    positive if the shafts move apart [m/s]. Returns thrust [N] and overturning moment [N m]; both are zero if nothing
+    slides. Raises NoSolution: `sleeve_equilibrium` if the tooth forces cannot hold the moment of friction.
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     meshes = two_meshes(inputs, geometry)

@@ -108,24 +108,8 @@ def _crossing(ahead: FloatArray, highest: float, psi: float) -> float:
 
 @inner_kernel
 def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
-    """Find the exact common rotation psi at which the teeth carry unit torque.
+    """Find the exact common rotation psi at which the teeth carry unit torque [T/(r_o c_t)].
 
-    Parameters
-    ----------
-    ahead : FloatArray
-        Lead w_i of each tooth, that is, the length by which the tooth is ahead; shape (teeth,) [T/(r_o c_t)].
-    highest : float
-        The largest of the leads [T/(r_o c_t)].
-    start : float
-        Positive start value of the iteration [T/(r_o c_t)].
-
-    Returns
-    -------
-    float
-        Rotation psi, counted from the point where the tooth with the largest lead makes contact [T/(r_o c_t)].
-
-    Notes
-    -----
     Eq. C8: sum max(0, psi + v_i) = 1, where v_i is the lead w_i minus the largest of all leads. The sum is a convex and
     piecewise linear function of psi. From any positive start, the first step of Newton's method leads to the root or to
     a larger value. Each further step reduces psi and unloads at least one tooth, until the linear piece that contains
@@ -287,34 +271,11 @@ def length_to_lowest(ahead: FloatArray, change: FloatArray, start: float) -> flo
 def float_sleeve(
     interference: FloatArray, normal: FloatArray, force: FloatArray, places: Places, k: int, ahead: FloatArray
 ) -> tuple[int, Hessian]:
-    """Balance a floating sleeve under unit torque and an external force, in place.
+    """Balance a floating sleeve under unit torque and an external force, in place (Eq. C9).
 
-    Parameters
-    ----------
-    interference : FloatArray
-        Interference at rest (lead w_i) of each tooth, shape (teeth,) [T/(r_o c_t)].
-    normal : FloatArray
-        Flank normals divided by cos(alpha), shape (2, teeth) [-].
-    force : FloatArray
-        External force on the sleeve, shape (2,) [T/r_o].
-    places : Places
-        Rotations and displacements. The iteration starts from the displacement in entry `k`; the solution replaces the
-        rotation and the displacement in this entry [T/(r_o c_t)].
-    k : int
-        Index into `places` [-].
-    ahead : FloatArray
-        Receives the interference u_i of the balanced teeth, shape (teeth,) [T/(r_o c_t)].
-
-    Returns
-    -------
-    iterations : int
-        Number of iterations; negative if the balance was not reached [-].
-    hessian : Hessian
-        Second derivatives of the energy at the balance [-].
-
-    Notes
-    -----
-    Eq. C9.
+    `normal`: flank normals divided by cos(alpha), shape (2, teeth) [-]; `force`: external force on the sleeve, shape
+    (2,) [T/r_o]. Returns `iterations`: number of iterations; negative if the balance was not reached [-]; `hessian`:
+    second derivatives of the energy at the balance [-].
     """
     normal_x, normal_y = normal
     force_x, force_y = force
@@ -409,27 +370,9 @@ class ToothLoads:
 
 
 def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Compute the lead of each tooth, which is the length by which the tooth is ahead.
+    """Compute the lead of each tooth, which is the length by which the tooth is ahead [m] (Eq. C7).
 
     The lead equals the interference of the tooth if the mesh is not rotated and the sleeve is not displaced.
-
-    Parameters
-    ----------
-    coupling : Coupling
-        The coupling.
-    mesh : MeshMotion
-        Motion of the mesh.
-    teeth : ToothPositions
-        Positions of the teeth, shape (rows, teeth).
-
-    Returns
-    -------
-    FloatArray
-        Tangential displacement f_t plus pitch deviation, shape (rows, teeth) [m].
-
-    Notes
-    -----
-    Eq. C7.
     """
     ahead = tangential_displacement(mesh, teeth)
     if coupling.pitch_errors is not None:
@@ -446,27 +389,9 @@ def elastic_rotation(coupling: Coupling, torque: float) -> float:
 
 
 def centred_loads(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, torque: float) -> ToothLoads:
-    """Compute the tooth loads with a sleeve that is held centred on the hub.
+    """Compute the tooth loads with a sleeve that is held centred on the hub (Eq. C7).
 
-    Parameters
-    ----------
-    coupling : Coupling
-        The coupling.
-    mesh : MeshMotion
-        Motion of the mesh.
-    teeth : ToothPositions
-        Positions of the teeth, shape (rows, teeth).
-    torque : float
-        Torque, not negative [N m].
-
-    Returns
-    -------
-    ToothLoads
-        Tooth loads at each rotor angle [N]. The loads are exact at any torque.
-
-    Notes
-    -----
-    Eq. C7.
+    `torque`: torque, not negative [N m].
     """
     ahead = interference_at_rest(coupling, mesh, teeth)
     rows = ahead.shape[0]
@@ -481,30 +406,10 @@ def centred_loads(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, t
 def floating_loads(
     coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, torque: float, force: FloatArray
 ) -> ToothLoads:
-    """Compute the tooth loads with a floating sleeve under an external force.
+    """Compute the tooth loads with a floating sleeve under an external force [N] (Eq. C7).
 
-    Parameters
-    ----------
-    coupling : Coupling
-        The coupling.
-    mesh : MeshMotion
-        Motion of the mesh.
-    teeth : ToothPositions
-        Positions of the teeth, shape (rows, teeth).
-    torque : float
-        Torque, positive [N m].
-    force : FloatArray
-        External force on the sleeve, shape (rows, 2) [N].
-
-    Returns
-    -------
-    ToothLoads
-        Tooth loads at each rotor angle [N].
-
-    Notes
-    -----
-    Eq. C7. The number of iterations is negative in a row without balance. In such a row the external force exceeds the
-    lateral force that the teeth can hold at this torque.
+    The number of iterations is negative in a row without balance. In such a row the external force exceeds the lateral
+    force that the teeth can hold at this torque. `torque`: torque, positive [N m].
     """
     unit = elastic_rotation(coupling, torque)
     unit_force = unit * coupling.tooth_stiffness
@@ -567,94 +472,29 @@ def load_distribution(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMoti
 
 
 def coaxial_limit(coupling: Coupling, torque: float, friction: float) -> float:
-    """Compute the axial thrust that arises if all teeth slide in the same direction.
-
-    Parameters
-    ----------
-    coupling : Coupling
-        The coupling.
-    torque : float
-        Torque [N m].
-    friction : float
-        Coefficient of friction [-].
-
-    Returns
-    -------
-    float
-        Limit F_max = mu T/(r_o cos alpha) of the thrust [N].
-
-    Notes
-    -----
-    Eq. C20.
-    """
+    """Compute the axial thrust that arises if all teeth slide in the same direction [N] (Eq. C20)."""
     return friction * torque / (pitch_radius(coupling) * cos(coupling.pressure_angle))
 
 
 def allowable_misalignment(speed: float, radius: float) -> float | None:
-    """Compute the misalignment at which the sliding velocity reaches its limit.
+    """Compute the misalignment at which the sliding velocity reaches its limit (Eq. C29).
 
-    Parameters
-    ----------
-    speed : float
-        Speed omega [rad/s].
-    radius : float
-        Pitch radius r_o [m].
-
-    Returns
-    -------
-    float or None
-        Misalignment 0.12/(omega r_o) [rad]; None if no angle up to 90 degrees reaches the limit.
-
-    Notes
-    -----
-    Eq. C29.
+    Returns misalignment 0.12/(omega r_o) [rad]; None if no angle up to 90 degrees reaches the limit.
     """
     rolling = abs(speed) * radius
     return SLIDING_VELOCITY_LIMIT / rolling if pi / 2 * rolling > SLIDING_VELOCITY_LIMIT else None
 
 
 def sleeve_centring_torque(coupling: Coupling, radius: float) -> float:
-    """Compute the torque above which all teeth stay loaded under the weight of a horizontal sleeve.
-
-    Parameters
-    ----------
-    coupling : Coupling
-        The coupling; its sleeve mass is the part of the mass that one mesh carries.
-    radius : float
-        Pitch radius r_o [m].
-
-    Returns
-    -------
-    float
-        Torque 2 W r_o cos(alpha) [N m], where W is the weight of the sleeve per mesh.
-
-    Notes
-    -----
-    Eq. C30.
-    """
+    """Compute the torque above which all teeth stay loaded under the weight of a horizontal sleeve (Eq. C30)."""
     return 2.0 * coupling.sleeve_mass * GRAVITY * radius * cos(coupling.pressure_angle)
 
 
 def unloading_misalignment(inputs: CouplingInputs, geometry: Geometry) -> float:
-    """Compute the misalignment at which the first tooth of a centred sleeve unloads.
+    """Compute the misalignment at which the first tooth of a centred sleeve unloads [rad] (Eq. C10).
 
-    Parameters
-    ----------
-    inputs : CouplingInputs
-        Coupling, operating point and model; pitch deviations are ignored.
-    geometry : Geometry
-        Radii of the coupling.
-
-    Returns
-    -------
-    float
-        Misalignment delta_L [rad].
-
-    Notes
-    -----
-    Eq. C10. The peak-to-peak tangential displacement grows with the square of the misalignment. At delta_L this
-    displacement reaches 2 F_m/c_t, where F_m is the mean tooth force. With tangential kinematics delta_L = sqrt(4
-    F_m/(c_t R_t)).
+    The peak-to-peak tangential displacement grows with the square of the misalignment. At delta_L this displacement
+    reaches 2 F_m/c_t, where F_m is the mean tooth force. With tangential kinematics delta_L = sqrt(4 F_m/(c_t R_t)).
     """
     coupling, operation = inputs.coupling, inputs.operation
     mean_force = operation.torque / (geometry.pitch_radius * coupling.teeth)
@@ -663,24 +503,9 @@ def unloading_misalignment(inputs: CouplingInputs, geometry: Geometry) -> float:
 
 
 def limits(inputs: CouplingInputs, geometry: Geometry) -> Limits:
-    """Compute the limits and the stiffness of one mesh.
+    """Compute the limits and the stiffness of one mesh (Eq. C31).
 
-    Parameters
-    ----------
-    inputs : CouplingInputs
-        Coupling, operating point and model.
-    geometry : Geometry
-        Radii of the coupling.
-
-    Returns
-    -------
-    Limits
-        Limits of sliding velocity [m/s], misalignment [rad] and torque [N m]; torsional stiffness [N m/rad] and lateral
-        stiffness [N/m].
-
-    Notes
-    -----
-    Eq. C31. The torsional stiffness is z c_t r_o^2, and the lateral stiffness is z c_t/(2 cos^2 alpha).
+    The torsional stiffness is z c_t r_o^2, and the lateral stiffness is z c_t/(2 cos^2 alpha).
     """
     coupling, radius = inputs.coupling, geometry.pitch_radius
     all_teeth = coupling.teeth * coupling.tooth_stiffness

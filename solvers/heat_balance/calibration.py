@@ -30,20 +30,7 @@ def wetted(network: Network, share: float) -> Network:
 
 
 def drain_rise(network: Network, rises: FloatArray) -> float:
-    """Compute the temperature rise of the oil in the drain, where the oil of gears and bearings is mixed.
-
-    Parameters
-    ----------
-    network : Network
-        The network.
-    rises : FloatArray
-        Temperature rises of the nodes [K].
-
-    Returns
-    -------
-    float
-        Temperature rise of the mixed oil over the supplied oil [K].
-    """
+    """Compute the temperature rise of the oil in the drain, where the oil of gears and bearings is mixed [K]."""
     flows = oil_flows(network, rises)
     warmed = network.spray.flow * rises[MIST] + flows @ rises[MIST + 1 : MIST + 1 + flows.size]
     return float(warmed / (network.spray.flow + flows.sum()))
@@ -58,27 +45,9 @@ def oil_flows(network: Network, rises: FloatArray) -> FloatArray:
 def with_drain(network: Network, drain: float) -> Network:
     """Fit the other losses so that the oil in the drain has the measured temperature; return the fitted network.
 
-    Parameters
-    ----------
-    network : Network
-        The network.
-    drain : float
-        Measured temperature of the oil in the drain [K].
-
-    Returns
-    -------
-    Network
-        The network with fitted other losses, which are never negative: where the calculated losses alone warm the drain
-        further, the other losses are 0 and the measured temperature is not met.
-
-    Raises
-    ------
-    InvalidInput
-        `measured_unreachable` if the oil in the drain is not warmer than the supplied oil.
-
-    Notes
-    -----
-    Eq. H20.
+    Eq. H20. Returns the network with fitted other losses, which are never negative: where the calculated losses alone
+    warm the drain further, the other losses are 0 and the measured temperature is not met. Raises InvalidInput:
+    `measured_unreachable` if the oil in the drain is not warmer than the supplied oil.
     """
     wanted = drain - network.oil.inlet
     if wanted <= 0.0:
@@ -105,33 +74,11 @@ def with_drain(network: Network, drain: float) -> Network:
 
 
 def with_rotor(network: Network, node: str, temperature: float, drain: float | None = None) -> Network:
-    """Return the network with the wetting share at which a node of a gear has the measured temperature.
+    """Return the network with the wetting share at which a node of a gear has the measured temperature (Eq. H19).
 
-    Parameters
-    ----------
-    network : Network
-        The network.
-    node : str
-        Measured node: "pinion_flank", "pinion_body", "wheel_flank" or "wheel_body".
-    temperature : float
-        Measured temperature of the node [K].
-    drain : float, optional
-        Measured temperature of the oil in the drain; if given, the other losses are fitted to this temperature [K].
-
-    Returns
-    -------
-    Network
-        The network with the largest wetting share that gives this temperature.
-
-    Raises
-    ------
-    InvalidInput
-        `measured_unreachable` if no share from 0.02 to 1 gives this temperature; the message states the reachable
-        range.
-
-    Notes
-    -----
-    Eq. H19.
+    `drain`: measured temperature of the oil in the drain; if given, the other losses are fitted to this temperature
+    [K]. Raises InvalidInput: `measured_unreachable` if no share from 0.02 to 1 gives this temperature; the message
+    states the reachable range.
     """
     place, wanted = network.nodes.index(node), temperature - network.oil.inlet
     fitted = _fitted(network, place, wanted, None if drain is None else drain - network.oil.inlet)

@@ -24,22 +24,7 @@ class Capacities:
     )
 
     def of(self, network: Network) -> FloatArray:
-        """Compute the heat capacity of each node.
-
-        Parameters
-        ----------
-        network : Network
-            The network.
-
-        Returns
-        -------
-        FloatArray
-            Heat capacities (n,) [J/K].
-
-        Notes
-        -----
-        Eq. H23.
-        """
+        """Compute the heat capacity of each node [J/K] (Eq. H23). Returns heat capacities (n,) [J/K]."""
         oil = network.oil.heat_capacity
         gears = [
             capacity

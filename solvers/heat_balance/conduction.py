@@ -4,29 +4,10 @@ from math import pi
 
 
 def tooth_conductance(teeth: int, face_width: float, module: float, height: float, conductivity: float) -> float:
-    """Compute the conductance from the loaded flanks of a gear to the middle of its teeth.
+    """Compute the conductance from the loaded flanks of a gear to the middle of its teeth [W/K].
 
-    Parameters
-    ----------
-    teeth : int
-        Number of teeth.
-    face_width : float
-        Face width [m].
-    module : float
-        Normal module [m].
-    height : float
-        Tooth height [m].
-    conductivity : float
-        Thermal conductivity of the gear [W/(m K)].
-
-    Returns
-    -------
-    float
-        Conductance [W/K].
-
-    Notes
-    -----
-    Eq. H15: K = z b H k/(pi m_n/4); the heat flows through half the thickness of a tooth.
+    Eq. H15: K = z b H k/(pi m_n/4); the heat flows through half the thickness of a tooth. `conductivity`: thermal
+    conductivity of the gear [W/(m K)].
     """
     return teeth * face_width * height * conductivity / (pi * module / 4)
 

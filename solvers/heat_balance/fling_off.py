@@ -41,53 +41,19 @@ class TurningTeeth:
 def turning_teeth(teeth: int, face_width: float, module: float, radius: float, speed: float) -> TurningTeeth:
     """Describe the flanks that a jet wets: both flanks of every tooth, over the whole tooth height of 2.25 m_n.
 
-    Parameters
-    ----------
-    teeth : int
-        Number of teeth.
-    face_width : float
-        Face width [m].
-    module : float
-        Normal module [m].
-    radius : float
-        Reference radius [m].
-    speed : float
-        Speed of the gear, positive [rad/s].
-
-    Returns
-    -------
-    TurningTeeth
-        Area, height, radius and speed of the teeth.
-
-    Notes
-    -----
-    Eq. H1: A = 2 z b H, H = 2.25 m_n.
+    Eq. H1: A = 2 z b H, H = 2.25 m_n. `speed`: speed of the gear, positive [rad/s].
     """
     height = TOOTH_HEIGHT * module
     return TurningTeeth(2 * teeth * face_width * height, height, radius, speed)
 
 
 def heat_number(film: float, turn: float) -> float:
-    """Compute the dimensionless heat that a film takes from the flank in one turn.
+    """Compute the dimensionless heat that a film takes from the flank in one turn [-] (Eq. H2).
 
-    Parameters
-    ----------
-    film : float
-        Thickness h0 of the fresh film, divided by sqrt(a t*) [-].
-    turn : float
-        Duration of a turn, divided by t* [-].
-
-    Returns
-    -------
-    float
-        Heat per area, kelvin and turn, divided by sqrt(k rho c t*) [-].
-
-    Notes
-    -----
-    Eq. H2. Here h0' is `film` and t' is `turn`. There are three limiting cases. A thin film reaches the temperature of
-    the wall: q = h0'. In a short turn the film acts as a half space: q = 2 sqrt(t'/pi). For a thick film and a long
-    turn a similarity solution gives q = 0.98. The closed form joins these three limiting cases, and agrees with
-    numerical solutions within 2.5 %.
+    Here h0' is `film` and t' is `turn`. There are three limiting cases. A thin film reaches the temperature of the
+    wall: q = h0'. In a short turn the film acts as a half space: q = 2 sqrt(t'/pi). For a thick film and a long turn a
+    similarity solution gives q = 0.98. The closed form joins these three limiting cases, and agrees with numerical
+    solutions within 2.5 %. Returns heat per area, kelvin and turn, divided by sqrt(k rho c t*) [-].
     """
     short = 2 * sqrt(turn / pi)
     unlimited = short**TIME_POWER + LONG_TURN**TIME_POWER
@@ -95,24 +61,8 @@ def heat_number(film: float, turn: float) -> float:
 
 
 def fling_off_time(oil: CoolingOil, teeth: TurningTeeth, temperature: float) -> float:
-    """Compute the time t* after which the heat of the flank has passed through the whole film.
+    """Compute the time t* after which the heat of the flank has passed through the whole film [s].
 
-    Parameters
-    ----------
-    oil : CoolingOil
-        The oil.
-    teeth : TurningTeeth
-        The teeth.
-    temperature : float
-        Temperature of the film [K].
-
-    Returns
-    -------
-    float
-        Time t* [s].
-
-    Notes
-    -----
     Eq. H3: t* = sqrt(nu H/(a r))/omega. At the time t*, the rotation has thinned the film at x = H to the thickness
     sqrt(a t*). By this time, the heat of the flank has reached a layer of the same thickness.
     """
@@ -121,22 +71,8 @@ def fling_off_time(oil: CoolingOil, teeth: TurningTeeth, temperature: float) -> 
 
 
 def laid_film(teeth: TurningTeeth, flow: float) -> float:
-    """Compute the thickness of the film that the jets lay on the flanks in one turn.
+    """Compute the thickness of the film that the jets lay on the flanks in one turn [m].
 
-    Parameters
-    ----------
-    teeth : TurningTeeth
-        The teeth.
-    flow : float
-        Oil that wets the flanks [m^3/s].
-
-    Returns
-    -------
-    float
-        Thickness h0 [m].
-
-    Notes
-    -----
     Eq. H4: h0 = Q_i/(A_i omega/2 pi).
     """
     return flow / (teeth.area * teeth.turns)
@@ -162,26 +98,6 @@ class FlingOff:
 def fling_off(oil: CoolingOil, teeth: TurningTeeth, flow: float, factor: float, flank: float) -> FlingOff:
     """Compute the cooling of both flanks of a gear by the oil film.
 
-    Parameters
-    ----------
-    oil : CoolingOil
-        The oil; its viscosity is taken at the mean of flank and supply temperature.
-    teeth : TurningTeeth
-        The teeth.
-    flow : float
-        Oil that wets the flanks of this gear [m^3/s].
-    factor : float
-        Factor by which the conductance of the film is multiplied [-].
-    flank : float
-        Temperature of the flank [K].
-
-    Returns
-    -------
-    FlingOff
-        Conductances from both flanks to the oil, and thicknesses of the film.
-
-    Notes
-    -----
     Eq. H5: G = f omega/(2 pi) A sqrt(k rho c t*) q(h0', t'), but at most rho c Q_i. `flooded` is G for h0' = 50,
     without the limit rho c Q_i.
     """

@@ -329,12 +329,9 @@ class Cooling:
     def check(self) -> None:
         """Refuse inputs that exclude each other.
 
-        Raises
-        ------
-        InvalidInput
-            `exclusive` if measured temperatures are given for both the flank and the body of one gear. Also `exclusive`
-            if the wetting share is given together with a measured temperature of a gear, or if the other losses are
-            given together with a measured temperature of the drain.
+        Raises InvalidInput: `exclusive` if measured temperatures are given for both the flank and the body of one gear.
+        Also `exclusive` if the wetting share is given together with a measured temperature of a gear, or if the other
+        losses are given together with a measured temperature of the drain.
         """
         measured = self.measured
         for gear in ("pinion", "wheel"):

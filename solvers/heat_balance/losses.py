@@ -36,24 +36,7 @@ class MeshHeat:
         return self.power if self.by_formula is None else self.by_formula
 
     def at(self, oil: CoolingOil, flanks: float) -> float:
-        """Compute the friction power at a given temperature of the flanks.
-
-        Parameters
-        ----------
-        oil : CoolingOil
-            The oil.
-        flanks : float
-            Mean temperature of both flanks [K].
-
-        Returns
-        -------
-        float
-            Friction power [W].
-
-        Notes
-        -----
-        Eq. H6.
-        """
+        """Compute the friction power at a given temperature of the flanks [W] (Eq. H6)."""
         if self.viscosity_exponent == 0.0:
             return self.power
         thinning = oil.viscosity(flanks) / oil.viscosity(self.temperature)
@@ -102,30 +85,10 @@ def share_to_pinion(
 
 
 def windage(pitch_line_velocity: float, diameter: float, face_width: float, module: float, speed: float) -> float:
-    """Compute the windage loss of one gear with the formula of Mauz.
+    """Compute the windage loss of one gear with the formula of Mauz [W].
 
-    Parameters
-    ----------
-    pitch_line_velocity : float
-        Pitch-line velocity [m/s].
-    diameter : float
-        Reference diameter [m].
-    face_width : float
-        Face width [m].
-    module : float
-        Normal module [m].
-    speed : float
-        Speed of the gear, positive [rad/s].
-
-    Returns
-    -------
-    float
-        Power [W].
-
-    Notes
-    -----
     Eq. H8: the torque is 1.37e-9 v^1.9 d^1.6 b^0.52 m_n^0.69 N m, with lengths in mm. Of three published formulas, this
-    formula gives the lowest loss.
+    formula gives the lowest loss. `speed`: speed of the gear, positive [rad/s].
     """
     sizes = (diameter * 1e3) ** 1.6 * (face_width * 1e3) ** 0.52 * (module * 1e3) ** 0.69
     return float(1.37e-9 * pitch_line_velocity**1.9 * sizes * speed)
@@ -159,24 +122,6 @@ def flow_by_rise(oil: CoolingOil, losses: float, rise: float) -> float:
 def ts_6336_22_bulk_rise(loss: float, centre_distance: float, face_width: float, supply_factor: float) -> float:
     """Estimate the difference between bulk and oil temperature by ISO/TS 6336-22, for gears without tip relief.
 
-    Parameters
-    ----------
-    loss : float
-        Loss of the mesh [W].
-    centre_distance : float
-        Centre distance [m].
-    face_width : float
-        Face width [m].
-    supply_factor : float
-        Factor X_S of the oil supply, 1.2 for jets [-].
-
-    Returns
-    -------
-    float
-        Temperature difference [K].
-
-    Notes
-    -----
     Eq. H13: 7400 (P mu H_v/(a b))^0.72 X_S/1.2, where the loss P mu H_v is in kW and the lengths are in mm.
     """
     return float(7400 * (loss * 1e-3 / (centre_distance * face_width * 1e6)) ** 0.72 * supply_factor / 1.2)

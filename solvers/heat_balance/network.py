@@ -186,22 +186,7 @@ class Network:
         return operation
 
     def flows(self, rises: FloatArray) -> list[Flow]:
-        """List every heat flow in the network.
-
-        Parameters
-        ----------
-        rises : FloatArray
-            Rise of each node over the supplied oil [K].
-
-        Returns
-        -------
-        list of Flow
-            The flows that section 1 of the manual's chapter on the heat balance describes.
-
-        Notes
-        -----
-        Eq. H17.
-        """
+        """List every heat flow in the network (Eq. H17)."""
         mist, oil, source = float(rises[MIST]), self.size, self.size + 2
         flows = [
             Flow(source, MIST, self.windage, "windage"),

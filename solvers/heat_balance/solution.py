@@ -26,31 +26,13 @@ class Equilibrium:
 
 
 def equilibrium(network: Network, start: FloatArray | None = None) -> Equilibrium:
-    """Find the temperatures at which every node of the network gains as much heat as it loses.
+    """Find the temperatures at which every node of the network gains as much heat as it loses [W] (Eq. H18).
 
-    Parameters
-    ----------
-    network : Network
-        The network.
-    start : FloatArray, optional
-        Start values of the rises over the supplied oil [K].
-
-    Returns
-    -------
-    Equilibrium
-        The temperature rises of the nodes over the supplied oil [K], the number of Newton steps and the residual [W].
-
-    Raises
-    ------
-    NoSolution
-        `heat_balance` if the iteration does not converge; `thermal_runaway` if the equilibrium is not stable.
-
-    Notes
-    -----
-    Eq. H18. J is the Jacobian of the residual. The equilibrium is stable if -J is an M-matrix. This means two things:
-    no element of -J off the diagonal is positive, and every node becomes warmer when every node gains a little more
-    heat. If all row sums of -J are positive, there is no second equilibrium. If hot flanks get little oil, a row sum
-    may be negative. A second equilibrium is then possible, but the function does not search for it.
+    J is the Jacobian of the residual. The equilibrium is stable if -J is an M-matrix. This means two things: no element
+    of -J off the diagonal is positive, and every node becomes warmer when every node gains a little more heat. If all
+    row sums of -J are positive, there is no second equilibrium. If hot flanks get little oil, a row sum may be
+    negative. A second equilibrium is then possible, but the function does not search for it. Raises NoSolution:
+    `heat_balance` if the iteration does not converge; `thermal_runaway` if the equilibrium is not stable.
     """
     rises = np.zeros(network.size) if start is None else np.array(start, dtype=float)
     residual = network.residual(rises)

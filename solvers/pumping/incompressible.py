@@ -19,37 +19,11 @@ def incompressible(
 ) -> SpaceFlow:
     """Compute the incompressible flow out of a single spur tooth space over one stroke.
 
-    Parameters
-    ----------
-    gas : Gas
-        Gas and ambient state.
-    table : StrokeTable
-        Area and clearances of the tooth space over its stroke.
-    face_width : float
-        Face width [m].
-    pinion_speed : float
-        Speed of the pinion [rad/s].
-    speed_ratio : float
-        Speed of the gear that owns the space, divided by the speed of the pinion.
-    discharge : float
-        Discharge coefficient of all openings.
-
-    Returns
-    -------
-    SpaceFlow
-        The flow at the middle of each interval of the table. Temperatures are None: the model computes the work, but it
-        does not compute where the work heats the gas.
-
-    Raises
-    ------
-    InvalidInput
-        incompressible_vacuum if the suction would exceed the ambient pressure.
-
-    Notes
-    -----
-    Eq. P14: the gas has the same velocity U = -(dV/dt) / [C_d (2 S + L b)] in every opening, and
-    p - p_e = rho U |U| / 2. Here S is the area and V is the volume of the space, L is the sum of both clearances, and b
-    is the face width.
+    Eq. P14: the gas has the same velocity U = -(dV/dt) / [C_d (2 S + L b)] in every opening, and p - p_e = rho U |U| /
+    2. Here S is the area and V is the volume of the space, L is the sum of both clearances, and b is the face width.
+    Returns the flow at the middle of each interval of the table. Temperatures are None: the model computes the work,
+    but it does not compute where the work heats the gas. Raises InvalidInput: incompressible_vacuum if the suction
+    would exceed the ambient pressure.
     """
     time = (table.angle - table.angle[0]) / (pinion_speed * speed_ratio)
     step = np.diff(time)

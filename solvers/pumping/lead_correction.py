@@ -61,26 +61,10 @@ class LeadCorrection:
 
 
 def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: FloatArray) -> LeadCorrection:
-    """Compute the lead correction for teeth that warm as much as the gas.
+    """Compute the lead correction for teeth that warm as much as the gas [m] (Eq. P12).
 
-    Parameters
-    ----------
-    pair : GearPair
-        The gear pair at its centre distance.
-    position : FloatArray, (slices,)
-        Positions of the slices from the end that meshes first [m].
-    temperature_rise : FloatArray, (slices,)
-        Temperature rise of the gas at these positions [K].
-
-    Returns
-    -------
-    LeadCorrection
-        Thermal growth and correction along the face, and the fitted parabola [m].
-
-    Notes
-    -----
-    Eq. P12. If the teeth warm by only a share of the temperature rise of the gas, the correction must be multiplied by
-    this share. The share is known from measurements only.
+    If the teeth warm by only a share of the temperature rise of the gas, the correction must be multiplied by this
+    share. The share is known from measurements only.
     """
     strain = EXPANSION * temperature_rise
     radial = strain * pair.pinion_working_radius * sin(pair.working_pressure_angle)

@@ -23,26 +23,10 @@ class Pulsation:
 
 
 def pulsation(meshing_frequency: float, flows: list[tuple[SpaceFlow, float, float]]) -> Pulsation:
-    """Superpose the flows of successive tooth spaces and compute the harmonics of the mass flow.
+    """Superpose the flows of successive tooth spaces and compute the harmonics of the mass flow [kg/s].
 
-    Parameters
-    ----------
-    meshing_frequency : float
-        Meshing frequency f_m [Hz].
-    flows : list of tuple
-        For each gear: the flow of one stroke of its spaces; the speed of the gear [rad/s]; the delay of its spaces. If
-        the spaces reach the line of centres later than the pinion's spaces, the delay is the time difference divided by
-        the mesh period. For the pinion the delay is 0.
-
-    Returns
-    -------
-    Pulsation
-        Amplitudes at the first multiples of the meshing frequency [kg/s].
-
-    Notes
-    -----
-    Eq. P13: the amplitude of order k is 2 f_m |integral m_dot exp(-2 pi i k f_m t) dt|. The code computes
-    the exponential of order k as the k-th power of the exponential of order 1.
+    Eq. P13: the amplitude of order k is 2 f_m |integral m_dot exp(-2 pi i k f_m t) dt|. The code computes the
+    exponential of order k as the k-th power of the exponential of order 1.
     """
     front = np.zeros(HARMONICS, dtype=complex)
     rear = np.zeros(HARMONICS, dtype=complex)

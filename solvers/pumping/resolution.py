@@ -66,24 +66,7 @@ class Grids(NamedTuple):
 
 
 def resolution(gas: Gas, spaces: list[Grids]) -> Resolution:
-    """Estimate the relative uncertainties of the results from coarser grids.
-
-    Parameters
-    ----------
-    gas : Gas
-        The perfect gas and its ambient state.
-    spaces : list of Grids
-        The spaces of each gear on three grids.
-
-    Returns
-    -------
-    Resolution
-        Largest uncertainty of each result over the spaces; uncertainties of pressures are relative to gauge pressures.
-
-    Notes
-    -----
-    Eq. P15.
-    """
+    """Estimate the relative uncertainties of the results from coarser grids (Eq. P15)."""
     shares = [uncertainties(gas, grids) for grids in spaces]
     uncertain = {name: max(of_space[name] for of_space in shares) for name in shares[0]}
     return Resolution(

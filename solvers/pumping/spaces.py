@@ -190,30 +190,7 @@ def _check_cost(mesh: Mesh, pinion_speed: float, parts: list[Stretch], limit: in
 
 
 def space_duct(mesh: Mesh, space: Space, pinion_speed: float, part: Stretch, *, transport: bool) -> Duct:
-    """Describe a stretch of the spaces of one gear as a duct.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        The prepared gear pair.
-    space : Space
-        The tooth spaces of one gear.
-    pinion_speed : float
-        Speed of the pinion [rad/s].
-    part : Stretch
-        The stretch of the face, cut into slices.
-    transport : bool
-        Whether the flanks carry gas out of the space.
-
-    Returns
-    -------
-    Duct
-        Cells, speed and walls of the stretch.
-
-    Notes
-    -----
-    Eq. 5.
-    """
+    """Describe a stretch of the spaces of one gear as a duct (Eq. 5)."""
     table = space.table
     carried = table.carried if transport else np.zeros_like(table.carried)
     clearance = table.clearance_left + table.clearance_right

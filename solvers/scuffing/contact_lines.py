@@ -37,32 +37,15 @@ class ContactLengths:
 
 
 def contact_lengths(path: PathOfContact) -> ContactLengths:
-    """Compute the total contact length in closed form.
+    """Compute the total contact length in closed form [m].
 
-    Parameters
-    ----------
-    path : PathOfContact
-        Path of contact of the pair.
-
-    Returns
-    -------
-    ContactLengths
-        Smallest, largest and mean total length of the contact lines [m].
-
-    Raises
-    ------
-    InvalidInput
-        `no_contact` if L_min = 0, because there are then roll positions at which no pair of teeth is in contact;
-        `overlap_range` if more than 100 lines are in contact at the same time.
-
-    Notes
-    -----
-    Eq. 4 is missing in the paper; these formulas replace it. The mean length is L = eps_alpha b / cos beta_b. The
-    total length as a function of the roll position is the periodic convolution of two rectangles. One rectangle has the
+    Eq. 4 is missing in the paper; these formulas replace it. The mean length is L = eps_alpha b / cos beta_b. The total
+    length as a function of the roll position is the periodic convolution of two rectangles. One rectangle has the
     length eps_alpha = n_a + f_a, and the other has the length eps_beta = n_b + f_b. Here n_a and n_b are whole numbers,
-    and f_a and f_b are fractions below 1. With the unit u = b / (eps_beta cos beta_b):
-
-    L_min = u [n_a eps_beta + n_b f_a + max(0, f_a + f_b - 1)],  L_max = u [n_a eps_beta + n_b f_a + min(f_a, f_b)].
+    and f_a and f_b are fractions below 1. With the unit u = b / (eps_beta cos beta_b): L_min = u [n_a eps_beta + n_b
+    f_a + max(0, f_a + f_b - 1)], L_max = u [n_a eps_beta + n_b f_a + min(f_a, f_b)]. Raises InvalidInput: `no_contact`
+    if L_min = 0, because there are then roll positions at which no pair of teeth is in contact; `overlap_range` if more
+    than 100 lines are in contact at the same time.
     """
     length = path.plane.face_width / path.plane.cos_base_helix
     transverse, overlap = path.transverse_contact_ratio, path.overlap_ratio
@@ -137,28 +120,11 @@ def roll_positions(
 def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, float]:
     """Compute the ends of a contact line.
 
-    Parameters
-    ----------
-    plane : ContactPlane
-        The rectangle of the plane of action.
-    phase : float
-        The x of the line at y = 0 [m].
-    side : float
-        For a spur gear, 0 tests the line itself, 1 tests a line at a slightly larger x, and -1 tests a line at a
-        slightly smaller x. For a helical gear, `side` has no effect.
-
-    Returns
-    -------
-    low : float
-        First y of the line [m].
-    high : float
-        Last y of the line [m]; equal to the first if the line is not in contact.
-
-    Notes
-    -----
     Eq. L3: the line is x = phase - y tan beta_b. The line of a spur gear is in contact if the tested line lies on the
     path of contact. `side` matters only if the line lies at an end of the path. The line of a helical gear is not in
     contact if it touches the rectangle only at a corner, because rounding errors would otherwise decide the result.
+    Returns `low`: first y of the line [m]; `high`: last y of the line [m]; equal to the first if the line is not in
+    contact.
     """
     if plane.tan_base_helix == 0.0:
         nudged = phase + side * COINCIDENT * plane.base_pitch

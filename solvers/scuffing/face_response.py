@@ -38,36 +38,9 @@ class FaceResponse:
 def face_response(
     mesh: Mesh, rolls: RollPositions, force: float, slices: int, stations: int, start: FaceResponse | None = None
 ) -> FaceResponse:
-    """Compute the forces over the face and their derivatives with respect to the gaps over the face.
+    """Compute the forces over the face and their derivatives with respect to the gaps over the face (Eq. L20).
 
-    Parameters
-    ----------
-    mesh : Mesh
-        The mesh with its gap.
-    rolls : RollPositions
-        Roll positions at which the load is balanced.
-    force : float
-        Force that the load balance distributes over the contact lines [N].
-    slices : int
-        Number of slices per line.
-    stations : int
-        Number of equidistant stations from y = 0 to b, both included.
-    start : FaceResponse, optional
-        Response of the same mesh under a similar gap; this response contains the start values.
-
-    Returns
-    -------
-    FaceResponse
-        Forces at the stations, and their derivatives with respect to the gaps at the stations.
-
-    Raises
-    ------
-    NoSolution
-        `load_balance` if the load balance does not converge.
-
-    Notes
-    -----
-    Eq. L20.
+    Raises NoSolution: `load_balance` if the load balance does not converge.
     """
     share = np.zeros(rolls.phase.size)
     share[:-1] += np.diff(rolls.phase) / 2

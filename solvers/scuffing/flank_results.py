@@ -24,22 +24,8 @@ SAME = 1e-6  # share of the range of places, or of a length; smaller differences
 
 
 def face_load_factor(balance: LoadBalance, y: float) -> float:
-    """Compute the face load factor of a loaded mesh.
+    """Compute the face load factor of a loaded mesh [-].
 
-    Parameters
-    ----------
-    balance : LoadBalance
-        The balanced mesh.
-    y : float
-        Distance of a peak of the load from the end that meshes first [m].
-
-    Returns
-    -------
-    float
-        Face load factor K_Hbeta [-].
-
-    Notes
-    -----
     Eq. L17: K_Hbeta is the largest value of q(y) = int w dx / p_bt divided by the mean value of q. This definition
     follows the idea of ISO 6336-1, annex E. The mean value of q is computed from the transmitted force and the face
     width. To find the largest value, q is first computed on a coarse grid that contains `y`, and then on finer grids
@@ -90,26 +76,10 @@ def _apart(places: FloatArray) -> FloatArray:
 
 
 def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) -> FloatArray:
-    """Compute the force per face width over the face.
+    """Compute the force per face width over the face [N/m] (Eq. L17).
 
-    Parameters
-    ----------
-    balance : LoadBalance
-        The balanced mesh.
-    y : ndarray
-        Distances from the end that meshes first [m].
-    substeps : int, optional
-        Number of substeps between neighbouring roll positions. This number is used only if a contact line is loaded
-        over a part of its length; otherwise there are no substeps.
-
-    Returns
-    -------
-    ndarray
-        Force per face width q = int w dx / p_bt [N/m].
-
-    Notes
-    -----
-    Eq. L17.
+    `substeps`: number of substeps between neighbouring roll positions. This number is used only if a contact line is
+    loaded over a part of its length; otherwise there are no substeps.
     """
     phase, error = balance.rolls.phase, balance.transmission_error
     return _face_loads(balance.mesh, phase, error, substeps if _in_part(balance) else 1, y)
@@ -167,32 +137,7 @@ def feature_line(
     modulus: float,
     psi: FloatArray,
 ) -> FeatureLine:
-    """Compute load, pressure and speeds along the feature line.
-
-    Parameters
-    ----------
-    path : PathOfContact
-        Path of contact of the pair.
-    balance : LoadBalance
-        The balanced mesh.
-    pinion_speed : float
-        Speed of the pinion [rad/s].
-    tangential_force : float
-        Transverse tooth force F_bt [N].
-    modulus : float
-        Reduced modulus E' [Pa].
-    psi : ndarray
-        Fractions of the feature line, from 0 to 1.
-
-    Returns
-    -------
-    FeatureLine
-        The points at x = psi g_alpha, y = psi b.
-
-    Notes
-    -----
-    Eq. S1.
-    """
+    """Compute load, pressure and speeds along the feature line (Eq. S1)."""
     x = psi * path.length
     load = line_loads(balance, x, psi * path.plane.face_width)
     line = contact_points(path, x, load, pinion_speed, modulus)
@@ -265,25 +210,6 @@ def _maps(
 def contact_pressure(plane: ContactPlane, radius: FloatArray, load: FloatArray, modulus: float) -> FloatArray:
     """Compute the Hertzian pressure at points of the flank.
 
-    Parameters
-    ----------
-    plane : ContactPlane
-        The plane of action.
-    radius : ndarray
-        Reduced radii [m].
-    load : ndarray
-        Line loads w [N/m].
-    modulus : float
-        Reduced modulus E' [Pa].
-
-    Returns
-    -------
-    ndarray
-        Pressure p_H [Pa]. The pressure is 0 at points without load. The pressure is NaN near a base circle: at the
-        base circle itself the reduced radius is 0, and the pressure would be infinite.
-
-    Notes
-    -----
     Eq. 14 of the paper gives the mean pressure, which is pi/4 of the value returned here. The paper calls the mean
     pressure the maximum pressure.
     """

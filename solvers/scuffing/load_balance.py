@@ -130,37 +130,14 @@ def _follow(table: Slices, count: int, change: float) -> float:
 
 @inner_kernel
 def newton(table: Slices, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
-    """Solve the balance of one roll position by Newton's method, from a start value of TE.
+    """Solve the balance of one roll position by Newton's method, from a start value of TE (Eq. L13).
 
-    Parameters
-    ----------
-    table : Slices
-        Slices of the lines; afterwards the table contains the loads of the solution.
-    count : int
-        Number of slices.
-    logarithmic : float
-        Logarithmic part of the compliance [1/Pa].
-    force : float
-        Force that the slices carry together [N].
-    error : float
-        Start value of the approach TE [m].
-
-    Returns
-    -------
-    error : float
-        Approach TE [m].
-    residual : float
-        Residual of the force divided by the force [-].
-    steps : float
-        Number of steps.
-
-    Notes
-    -----
-    Eq. L13. TE and the loads of the slices are iterated together: after every step of TE, the load of every slice takes
-    one step of its own iteration. The error after a step of TE is estimated by the square of the relative residual
-    before this step. A step is the last step if it crosses no kink and if this estimate is below rounding. In the last
-    step, the loads are not iterated: every load changes by its derivative times the step of TE. With linear contact
-    every step that crosses no kink is the last step.
+    TE and the loads of the slices are iterated together: after every step of TE, the load of every slice takes one step
+    of its own iteration. The error after a step of TE is estimated by the square of the relative residual before this
+    step. A step is the last step if it crosses no kink and if this estimate is below rounding. In the last step, the
+    loads are not iterated: every load changes by its derivative times the step of TE. With linear contact every step
+    that crosses no kink is the last step. Returns `error`: approach TE [m]; `residual`: residual of the force divided
+    by the force [-]; `steps`: number of steps.
     """
     residual, steps = np.inf, 0.0
     while steps < MAX_STEPS:
@@ -223,35 +200,9 @@ class LoadBalance:
 def balance_load(
     mesh: Mesh, rolls: RollPositions, force: float, slices: int, start: Start | None = None
 ) -> LoadBalance:
-    """Balance the load at the given roll positions, and at further roll positions where TE is not linear.
+    """Balance the load at the given roll positions, and at further roll positions where TE is not linear (Eq. 9).
 
-    Parameters
-    ----------
-    mesh : Mesh
-        The mesh with its gap.
-    rolls : RollPositions
-        Roll positions of one base pitch.
-    force : float
-        Force that the contact lines carry together [N]. If the mean line load is below `LEAST_LINE_LOAD`, the force is
-        replaced by 0.
-    slices : int
-        Number of slices per line.
-    start : tuple, optional
-        Start values: TE and ln w of the slices, from a balance of the same mesh under a similar gap.
-
-    Returns
-    -------
-    LoadBalance
-        TE and loads at all roll positions. If the force is 0, TE is the kinematic error.
-
-    Raises
-    ------
-    NoSolution
-        `load_balance` if the iteration does not reach the force.
-
-    Notes
-    -----
-    Eq. 9.
+    Raises NoSolution: `load_balance` if the iteration does not reach the force.
     """
     if force < LEAST_LINE_LOAD * mesh.plane.face_width:
         force = 0.0

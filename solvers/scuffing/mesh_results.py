@@ -85,24 +85,8 @@ class StandardStiffness:
 def standard_stiffness(
     path: PathOfContact, line_load: float = REFERENCE_LOAD, youngs_modulus: float = STEEL
 ) -> StandardStiffness:
-    """Compute the stiffness of teeth and mesh by ISO 6336-1, method B.
+    """Compute the stiffness of teeth and mesh by ISO 6336-1, method B [Pa].
 
-    Parameters
-    ----------
-    path : PathOfContact
-        Path of contact of the pair.
-    line_load : float, optional
-        Line load F_t K_A/b [N/m].
-    youngs_modulus : float, optional
-        Young's modulus of the gears E [Pa].
-
-    Returns
-    -------
-    StandardStiffness
-        Stiffness of one pair of teeth and of the mesh [Pa].
-
-    Notes
-    -----
     Eq. L16: c' = c'_th C_M C_R C_B cos beta, c_ga = c' (0.75 eps_alpha + 0.25), c_gb = 0.85 c_ga, with
 
     1/c'_th = 0.04723 + 0.15551/z_n1 + 0.25791/z_n2 - 0.00635 x1 - 0.11654 x1/z_n1 - 0.00193 x2 - 0.24188 x2/z_n2
@@ -150,21 +134,7 @@ def _rack_factor(pair: GearPair) -> float:
 def mesh_stiffness(balance: LoadBalance, tangential_force: float) -> FloatArray | None:
     """Compute the stiffness of the mesh at every roll position.
 
-    Parameters
-    ----------
-    balance : LoadBalance
-        The balanced mesh.
-    tangential_force : float
-        Transverse tooth force F_bt [N].
-
-    Returns
-    -------
-    ndarray or None
-        Stiffness c_gamma [Pa]; None without load.
-
-    Notes
-    -----
-    c_gamma = F_bt / [b (TE - TE_unloaded)] (Eq. L15).
+    c_gamma = F_bt / [b (TE - TE_unloaded)] (Eq. L15). Returns stiffness c_gamma [Pa]; None without load.
     """
     if balance.force == 0.0:
         return None
@@ -203,23 +173,11 @@ def stiffness(
 
 
 def transmission_error(balance: LoadBalance) -> TransmissionError:
-    """Compute extremes, mean and harmonics of the transmission error.
+    """Compute extremes, mean and harmonics of the transmission error [m] (Eq. L18).
 
-    Parameters
-    ----------
-    balance : LoadBalance
-        The balanced mesh.
-
-    Returns
-    -------
-    TransmissionError
-        Transmission error along the transverse line of action [m].
-
-    Notes
-    -----
-    Eq. L18. Mean and harmonics are integrals by the trapezoidal rule over the roll positions. If the transmission error
-    of a spur gear jumps at a roll position, the position occurs twice: with the value before the jump and with the
-    value after the jump. Jumps therefore cause no error of the integrals.
+    Mean and harmonics are integrals by the trapezoidal rule over the roll positions. If the transmission error of a
+    spur gear jumps at a roll position, the position occurs twice: with the value before the jump and with the value
+    after the jump. Jumps therefore cause no error of the integrals.
     """
     error, phase = balance.transmission_error, balance.rolls.phase
     return TransmissionError(
@@ -249,30 +207,13 @@ def friction_loss(
 ) -> FrictionLoss:
     """Compute friction power, loss factor and efficiency of the mesh.
 
-    Parameters
-    ----------
-    path : PathOfContact
-        Path of contact of the pair.
-    balance : LoadBalance
-        The balanced mesh.
-    load : Load
-        Torque, speed and load factors.
-    friction_coefficient : float or None
-        Mean coefficient of friction f [-].
-
-    Returns
-    -------
-    FrictionLoss
-        Friction power [W], loss factor and efficiency [-]. Without load, the power is 0, and loss factor and efficiency
-        are None. Without a coefficient of friction, power and efficiency are None.
-
-    Notes
-    -----
-    Eq. L19: P_V = f/p_bt int sum_j int w |u1 - u2| dl dphase with u1 - u2 = (omega_1 + omega_2)(s - s_C), and
-    H_V = P_V / (f P). The sum is taken over the contact lines j, and P is the transmitted power. Here p_bt is the
-    transverse base pitch, w is the line load, s is the distance of the contact from the pinion's base tangent point,
-    and s_C is the distance of the pitch point from the pinion's base tangent point. The load factors are not used for
-    friction power and efficiency, because they raise only the load of the contacts, not the transmitted power.
+    Eq. L19: P_V = f/p_bt int sum_j int w |u1 - u2| dl dphase with u1 - u2 = (omega_1 + omega_2)(s - s_C), and H_V = P_V
+    / (f P). The sum is taken over the contact lines j, and P is the transmitted power. Here p_bt is the transverse base
+    pitch, w is the line load, s is the distance of the contact from the pinion's base tangent point, and s_C is the
+    distance of the pitch point from the pinion's base tangent point. The load factors are not used for friction power
+    and efficiency, because they raise only the load of the contacts, not the transmitted power. Returns friction power
+    [W], loss factor and efficiency [-]. Without load, the power is 0, and loss factor and efficiency are None. Without
+    a coefficient of friction, power and efficiency are None.
     """
     if balance.force == 0.0:
         return FrictionLoss(friction_coefficient, loss_factor=None, power=0.0, efficiency=None)

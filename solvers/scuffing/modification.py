@@ -124,24 +124,8 @@ def kinks_along_face(form: Gap) -> tuple[float, ...]:
 
 
 def misalignment_slope(in_plane: float, out_of_plane: float, working_pressure_angle: float) -> float:
-    """Compute the helix slope that has the same effect as shaft deviations.
+    """Compute the helix slope that has the same effect as shaft deviations [m].
 
-    Parameters
-    ----------
-    in_plane : float
-        Deviation f_Sigma_delta in the plane of the shafts, over the face [m].
-    out_of_plane : float
-        Deviation f_Sigma_beta out of the plane of the shafts, over the face [m].
-    working_pressure_angle : float
-        Working transverse pressure angle alpha_wt [rad].
-
-    Returns
-    -------
-    float
-        Helix slope over the face [m].
-
-    Notes
-    -----
     Eq. L12, with the deviations of ISO/TR 10064-3: f_Sigma_delta sin alpha_wt + f_Sigma_beta cos alpha_wt.
     """
     return in_plane * sin(working_pressure_angle) + out_of_plane * cos(working_pressure_angle)
@@ -158,24 +142,7 @@ def _relief(amplitude: float, length: float, distance: float, exponent: float) -
 
 @inner_kernel
 def profile_gap(form: Gap, x: float) -> float:
-    """Compute the part of the gap that depends on the distance x along the path.
-
-    Parameters
-    ----------
-    form : Gap
-        The gap.
-    x : float
-        Distance from A [m].
-
-    Returns
-    -------
-    float
-        Part of the gap Delta [m].
-
-    Notes
-    -----
-    Eq. L11.
-    """
+    """Compute the part of the gap that depends on the distance x along the path [m] (Eq. L11)."""
     xi = x / form.path_length - 0.5
     value = 4.0 * form.profile_crowning * xi * xi + form.profile_slope * xi
     value += _relief(form.tip_relief, form.tip_relief_length, form.path_length - x, form.exponent)
@@ -184,24 +151,7 @@ def profile_gap(form: Gap, x: float) -> float:
 
 @inner_kernel
 def lead_gap(form: Gap, y: float) -> float:
-    """Compute the part of the gap that depends on the distance y along the face.
-
-    Parameters
-    ----------
-    form : Gap
-        The gap.
-    y : float
-        Distance from the end that meshes first [m].
-
-    Returns
-    -------
-    float
-        Part of the gap Delta [m].
-
-    Notes
-    -----
-    Eq. L11.
-    """
+    """Compute the part of the gap that depends on the distance y along the face [m] (Eq. L11)."""
     eta = y / form.face_width - 0.5
     value = 4.0 * form.lead_crowning * eta * eta + form.helix_slope * eta
     value += interpolated(form.lead, place_of(y, (form.lead.size - 1) / form.face_width, form.lead.size))

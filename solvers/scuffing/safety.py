@@ -281,23 +281,8 @@ def _derived(inputs: ScuffingInputs, mesh: Derived, heat: Heat | None, ran: Bulk
 def safety_factor(scuffing: float, oil: float, contact: float) -> float | None:
     """Compute the safety factor against scuffing.
 
-    Parameters
-    ----------
-    scuffing : float
-        Scuffing temperature t_s [K].
-    oil : float
-        Oil temperature t_oil [K].
-    contact : float
-        Largest contact temperature t_B [K].
-
-    Returns
-    -------
-    float or None
-        Safety factor S [-]; None if the contact is not hotter than the oil.
-
-    Notes
-    -----
-    S = (t_s - t_oil) / (max t_B - t_oil) (Eq. 26).
+    S = (t_s - t_oil) / (max t_B - t_oil) (Eq. 26). Returns safety factor S [-]; None if the contact is not hotter than
+    the oil.
     """
     return (scuffing - oil) / (contact - oil) if contact > oil else None
 

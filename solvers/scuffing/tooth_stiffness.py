@@ -135,24 +135,8 @@ def _chord_height(gear: Gear, root_width: float) -> float:
 
 
 def bending_rectangle(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """Compute the bending deflection of the rectangle of a tooth.
+    """Compute the bending deflection of the rectangle of a tooth [1/Pa].
 
-    Parameters
-    ----------
-    shape : ToothShape
-        Rectangle and trapezium of the tooth.
-    points : LoadPoints
-        Points at which the tooth is loaded.
-    material : Solid
-        Material of the tooth.
-
-    Returns
-    -------
-    ndarray
-        Deflection per line load [1/Pa].
-
-    Notes
-    -----
     Eq. L4: delta_Br / w. The formula holds for loads above the rectangle and for loads on the rectangle.
     """
     h_x, s_f = points.height, shape.root_width
@@ -162,29 +146,13 @@ def bending_rectangle(shape: ToothShape, points: LoadPoints, material: Solid) ->
 
 
 def bending_trapezium(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """Compute the bending deflection of the trapezium of a tooth.
+    """Compute the bending deflection of the trapezium of a tooth [1/Pa].
 
-    Parameters
-    ----------
-    shape : ToothShape
-        Rectangle and trapezium of the tooth.
-    points : LoadPoints
-        Points at which the tooth is loaded.
-    material : Solid
-        Material of the tooth.
-
-    Returns
-    -------
-    ndarray
-        Deflection per line load [1/Pa].
-
-    Notes
-    -----
-    Eq. L5: delta_Bt / w = 6 cos^2 omega_x / (E S_F^3) [q (4 - q) - 2 ln q - 3] (h_i - h_r)^3 with
-    q = (h_i - h_x)/(h_i - h_r) and the load angle omega_x. h_i is the height at which the sides of the trapezium meet,
-    h_r is the height of the rectangle, h_x is the height of the load point, and S_F is the width of the rectangle. The
-    sign of the logarithm is right as printed; with the other sign the compliance would be negative. E is the modulus of
-    the gear itself; the paper prints E_1.
+    Eq. L5: delta_Bt / w = 6 cos^2 omega_x / (E S_F^3) [q (4 - q) - 2 ln q - 3] (h_i - h_r)^3 with q = (h_i - h_x)/(h_i
+    - h_r) and the load angle omega_x. h_i is the height at which the sides of the trapezium meet, h_r is the height of
+    the rectangle, h_x is the height of the load point, and S_F is the width of the rectangle. The sign of the logarithm
+    is right as printed; with the other sign the compliance would be negative. E is the modulus of the gear itself; the
+    paper prints E_1.
     """
     if shape.tip_width == shape.root_width:
         return np.zeros_like(points.height)
@@ -194,24 +162,8 @@ def bending_trapezium(shape: ToothShape, points: LoadPoints, material: Solid) ->
 
 
 def shear(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """Compute the shear deflection of a tooth.
+    """Compute the shear deflection of a tooth [1/Pa].
 
-    Parameters
-    ----------
-    shape : ToothShape
-        Rectangle and trapezium of the tooth.
-    points : LoadPoints
-        Points at which the tooth is loaded.
-    material : Solid
-        Material of the tooth.
-
-    Returns
-    -------
-    ndarray
-        Deflection per line load [1/Pa].
-
-    Notes
-    -----
     Eq. L6: delta_S / w = 2 (1 + nu) cos^2 omega_x / (E S_F) [h_r + (h_i - h_r) ln(1/q)], with the load angle omega_x
     and a shear factor of 1. The other symbols are those of `bending_trapezium`.
     """
@@ -224,54 +176,19 @@ def shear(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
 
 
 def root_rotation(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """Compute the deflection that the rotation of the root of a tooth causes.
+    """Compute the deflection that the rotation of the root of a tooth causes [1/Pa].
 
-    Parameters
-    ----------
-    shape : ToothShape
-        Rectangle and trapezium of the tooth.
-    points : LoadPoints
-        Points at which the tooth is loaded.
-    material : Solid
-        Material of the tooth.
-
-    Returns
-    -------
-    ndarray
-        Deflection per line load [1/Pa].
-
-    Notes
-    -----
     Eq. L7: delta_G / w = 24 h_x^2 cos^2 omega_x / (pi E S_F^2), with the load angle omega_x. The paper prints h_x
-    instead of h_x^2. The bending moment M is proportional to the arm h_x, and the rotation is proportional to
-    M/(E S_F^2). The deflection is the rotation times the arm h_x, and is therefore proportional to h_x^2. Only h_x^2
-    gives the right unit.
+    instead of h_x^2. The bending moment M is proportional to the arm h_x, and the rotation is proportional to M/(E
+    S_F^2). The deflection is the rotation times the arm h_x, and is therefore proportional to h_x^2. Only h_x^2 gives
+    the right unit.
     """
     arm = points.height * np.cos(points.angle)
     return np.asarray(24 * arm**2 / (pi * material.youngs_modulus * shape.root_width**2))
 
 
 def bending_compliance(shape: ToothShape, points: LoadPoints, material: Solid) -> FloatArray:
-    """Compute the deflection of one tooth in the direction of the load.
-
-    Parameters
-    ----------
-    shape : ToothShape
-        Rectangle and trapezium of the tooth.
-    points : LoadPoints
-        Points at which the tooth is loaded.
-    material : Solid
-        Material of the tooth.
-
-    Returns
-    -------
-    ndarray
-        Deflection per line load [1/Pa].
-
-    Notes
-    -----
-    Eq. 5.
-    """
+    """Compute the deflection of one tooth in the direction of the load [1/Pa] (Eq. 5)."""
     parts = (bending_rectangle, bending_trapezium, shear, root_rotation)
     return np.asarray(sum(part(shape, points, material) for part in parts))
 
@@ -322,34 +239,10 @@ class Member:
 
 
 def pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Model) -> PairCompliance:
-    """Compute the compliance of a pair of teeth along the path.
+    """Compute the compliance of a pair of teeth along the path (Eqs. 7, L8).
 
-    The result is stored and reused for further loads of the same teeth.
-
-    Parameters
-    ----------
-    path : PathOfContact
-        Path of contact of the pair.
-    pinion : Solid
-        Material of the pinion.
-    wheel : Solid
-        Material of the wheel.
-    model : Model
-        Options of stiffness, contact and section.
-
-    Returns
-    -------
-    PairCompliance
-        Compliance over equidistant points of the path.
-
-    Raises
-    ------
-    InvalidInput
-        `contact_law` if the parabola is combined with the half-space; the parabola is defined only for linear contact.
-
-    Notes
-    -----
-    Eqs. 7, L8.
+    The result is stored and reused for further loads of the same teeth. Raises InvalidInput: `contact_law` if the
+    parabola is combined with the half-space; the parabola is defined only for linear contact.
     """
     return _pair_compliance(path, replace(pinion, roughness=0.0), replace(wheel, roughness=0.0), model)
 
@@ -388,22 +281,8 @@ def _pair_compliance(path: PathOfContact, pinion: Solid, wheel: Solid, model: Mo
 
 
 def linear_contact_compliance(pinion: Solid, wheel: Solid) -> float:
-    """Compute the compliance of the linear contact.
+    """Compute the compliance of the linear contact [1/Pa].
 
-    Parameters
-    ----------
-    pinion : Solid
-        Material of the pinion.
-    wheel : Solid
-        Material of the wheel.
-
-    Returns
-    -------
-    float
-        Compliance c_PV [1/Pa].
-
-    Notes
-    -----
     Eq. 6: c_PV = (2/pi) [(1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2]; the paper prints one E for both.
     """
     return 2 / pi * (plane_strain_compliance(pinion) + plane_strain_compliance(wheel))
@@ -467,33 +346,10 @@ def compliance_at(compliance: PairCompliance, x: float) -> tuple[float, float]:
 def line_load(
     approach: float, constant: float, logarithmic: float, limit: float, log_load: float
 ) -> tuple[float, float, float]:
-    """Compute the line load of a pair of teeth under an approach.
+    """Compute the line load of a pair of teeth under an approach (Eq. L9).
 
-    Parameters
-    ----------
-    approach : float
-        Approach of the flanks delta [m].
-    constant : float
-        Constant part of the compliance [1/Pa].
-    logarithmic : float
-        Logarithmic part of the compliance [1/Pa].
-    limit : float
-        Approach beyond which the compliance is held constant [m].
-    log_load : float
-        Guess of ln w.
-
-    Returns
-    -------
-    load : float
-        Line load w [N/m].
-    stiffness : float
-        Derivative of the line load with respect to the approach [Pa].
-    log_load : float
-        Logarithm ln w; serves as the guess at a similar approach.
-
-    Notes
-    -----
-    Eq. L9.
+    Returns `load`: line load w [N/m]; `stiffness`: derivative of the line load with respect to the approach [Pa];
+    `log_load`: logarithm ln w; serves as the guess at a similar approach.
     """
     load = stiffness = 0.0
     for _ in range(OMEGA_STEPS):

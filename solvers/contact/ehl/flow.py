@@ -88,27 +88,11 @@ def flow_moments(i: int, film: Film) -> None:
 def flow(problem: Problem, i: int, h: float, film: Film, coefficients: FlowCoefficients) -> None:
     """Compute the flow coefficients A and B and the stream functions of column i, in place.
 
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    i : int
-        Number of the column.
-    h : float
-        Film thickness [m].
-    film : Film
-        Shear and moments of the columns; receives the stream functions.
-    coefficients : FlowCoefficients
-        Receives ln A and B.
-
-    Notes
-    -----
     Eqs. 17, E7.1, for a density that varies across the film: A = F1 N0/F0 - N1 and B = u1 R + du N0/F0, where R is the
     mean density and du is u2 - u1. The symbols phi, zeta, F0, F1, N0 and N1 are those of `flow_moments`. J0 and J1 are
-    the integrals of phi and of phi zeta from surface 1 to a height zeta.
-
-    `couette` is the integral of h rho (u1 + du J0/F0) from surface 1 to each node. `poiseuille` is the integral of
-    rho (F1 J0/F0 - J1)/A from surface 1 to each node.
+    the integrals of phi and of phi zeta from surface 1 to a height zeta. `couette` is the integral of h rho (u1 + du
+    J0/F0) from surface 1 to each node. `poiseuille` is the integral of rho (F1 J0/F0 - J1)/A from surface 1 to each
+    node.
     """
     rho, effective, moments, flows = film.shear.density, film.shear.effective, film.moments[i], film.flow
     m, u1, du = rho.shape[1], problem.speed_1, problem.speed_2 - problem.speed_1

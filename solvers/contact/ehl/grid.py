@@ -29,21 +29,10 @@ def _log_moment(t: float) -> float:
 def deflection_matrix(x: FloatArray) -> FloatArray:
     """Compute the matrix K of elastic deflection in the film thickness H = H0 + X^2/2 + K P.
 
-    Parameters
-    ----------
-    x : FloatArray
-        Nodes (n,) [half widths].
-
-    Returns
-    -------
-    FloatArray
-        Matrix K (n, n), exact for pressures that are linear between the nodes.
-
-    Notes
-    -----
     K P is the integral -(1/pi) int P ln|X - X'| dX' of Eq. 21. The E of the paper is the E' of `reduced_modulus`. The
     paper takes the logarithm of a length, ln|x - s|, but does not state the unit of this length. Here the unit is b.
-    Another unit would change H0 only.
+    Another unit would change H0 only. `x`: nodes (n,) [half widths]. Returns matrix K (n, n), exact for pressures that
+    are linear between the nodes.
     """
     n = x.size
     matrix = np.zeros((n, n))
@@ -65,19 +54,8 @@ def deflection_matrix(x: FloatArray) -> FloatArray:
 def heat_matrix(x: FloatArray) -> FloatArray:
     """Compute the matrix Wt for which int_{x_0}^{x_i} q(s) (x_i - s)^-1/2 ds = sum_j Wt[i, j] q_j.
 
-    Parameters
-    ----------
-    x : FloatArray
-        Nodes (n,), increasing [half widths].
-
-    Returns
-    -------
-    FloatArray
-        Matrix Wt (n, n), exact for heat fluxes q that are linear between the nodes.
-
-    Notes
-    -----
-    Moving line source of Carslaw and Jaeger at a high Peclet number (Eq. 24).
+    Moving line source of Carslaw and Jaeger at a high Peclet number (Eq. 24). `x`: nodes (n,), increasing [half
+    widths]. Returns matrix Wt (n, n), exact for heat fluxes q that are linear between the nodes.
     """
     n = x.size
     matrix = np.zeros((n, n))

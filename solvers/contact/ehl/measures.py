@@ -86,25 +86,9 @@ def mid_film(t: FloatArray) -> FloatArray:
 
 
 def friction(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> ContactFriction:
-    """Compute the friction of the film from the mid-film stress, and from the stress at both surfaces.
+    """Compute the friction of the film from the mid-film stress, and from the stress at both surfaces (Eq. E9).
 
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    attempt : Attempt
-        Converged state.
-    inputs : LineContactInputs
-        The contact.
-
-    Returns
-    -------
-    ContactFriction
-        Coefficients of friction, power and largest stresses.
-
-    Notes
-    -----
-    Eq. E9. The stress at the surfaces differs from the mid-film stress by half of h dp/dx.
+    The stress at the surfaces differs from the mid-film stress by half of h dp/dx.
     """
     work, contact = attempt.work, inputs.contact
     p = attempt.state.pressure * problem.maximum_pressure
@@ -146,24 +130,7 @@ def heat_by_node(problem: Problem, attempt: Attempt) -> FloatArray:
 
 
 def heat(problem: Problem, attempt: Attempt) -> ContactHeat:
-    """Compute the heat balance of all columns except the first, whose temperatures are given.
-
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    attempt : Attempt
-        Converged state.
-
-    Returns
-    -------
-    ContactHeat
-        Heat generated, conducted into the surfaces and convected, and the error of the balance.
-
-    Notes
-    -----
-    Eq. E10.
-    """
+    """Compute the heat balance of all columns except the first, whose temperatures are given (Eq. E10)."""
     heats, t = attempt.work.heat, attempt.state.temperature
     width = attempt.grid.weights[1:] * problem.half_width
     generated = float(heat_by_node(problem, attempt).sum())

@@ -41,32 +41,10 @@ SHRINKING = 0.1  # steps count as shrinking if the ratio of a step to the step b
 
 @inlined_kernel
 def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coefficients: FlowCoefficients) -> float:
-    """Compute the flow coefficients of column i at the inlet temperature.
+    """Compute the flow coefficients of column i at the inlet temperature [Pa] (Eq. E7.2).
 
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    i : int
-        Number of the column.
-    p : float
-        Pressure [Pa].
-    g : float
-        Film thickness times pressure gradient, h dp/dx [Pa].
-    h : float
-        Film thickness [m].
-    coefficients : FlowCoefficients
-        Receives ln A and B with their derivatives.
-
-    Returns
-    -------
-    float
-        Mid-film stress [Pa].
-
-    Notes
-    -----
-    Eq. E7.2. A Newtonian oil has A = rho/(12 eta). For another law of shear, A is this value times a factor that
-    depends on the law. B is rho um.
+    A Newtonian oil has A = rho/(12 eta). For another law of shear, A is this value times a factor that depends on the
+    law. B is rho um.
     """
     laws = problem.laws
     term, term_slope = pressure_part(laws, p)

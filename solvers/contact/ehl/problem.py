@@ -35,24 +35,7 @@ class Groups:
 
 @lru_cache(maxsize=256)
 def groups(inputs: LineContactInputs, temperature: float | None = None) -> Groups:
-    """Compute the Hertzian contact and the parameters of Moes.
-
-    Parameters
-    ----------
-    inputs : LineContactInputs
-        The contact.
-    temperature : float, optional
-        Temperature at which the viscosity is taken; by default the inlet temperature [K].
-
-    Returns
-    -------
-    Groups
-        Half width, pressure, scales and the parameters M = W U^-1/2 and L = alpha E' U^1/4, where W is w/(E' R).
-
-    Notes
-    -----
-    Eq. E2.
-    """
+    """Compute the Hertzian contact and the parameters of Moes (Eq. E2)."""
     contact, lubricant = inputs.contact, inputs.lubricant
     modulus = hertz.reduced_modulus(inputs.surface_1, inputs.surface_2)
     half_width = hertz.half_width(contact.line_load, contact.radius, modulus)
@@ -94,20 +77,6 @@ def entry_temperature(inputs: LineContactInputs) -> float:
 def moes_central_film(m: float, l: float) -> float:
     """Compute the central film thickness of an isothermal, incompressible line contact (Nijenbanning and others).
 
-    Parameters
-    ----------
-    m : float
-        Load parameter M of Moes [-].
-    l : float
-        Lubricant parameter L of Moes [-].
-
-    Returns
-    -------
-    float
-        Film thickness (h/R) U^-1/2 [-].
-
-    Notes
-    -----
     Eq. E3.
     """
     return _moes_film(l, (3.0 / m, 2.621 * m**-0.2, 1.287 * l ** (2 / 3), 1.311 * m**-0.125 * l**0.75))
@@ -116,20 +85,6 @@ def moes_central_film(m: float, l: float) -> float:
 def moes_minimum_film(m: float, l: float) -> float:
     """Compute the minimum film thickness of an isothermal, incompressible line contact (Nijenbanning and others).
 
-    Parameters
-    ----------
-    m : float
-        Load parameter M of Moes [-].
-    l : float
-        Lubricant parameter L of Moes [-].
-
-    Returns
-    -------
-    float
-        Film thickness (h/R) U^-1/2 [-].
-
-    Notes
-    -----
     Eq. E3.
     """
     return _moes_film(l, (2.45 / m, 2.05 * m**-0.2, 1.05 * l ** (2 / 3), 0.96 * m**-0.125 * l**0.75))
@@ -233,22 +188,7 @@ def _surface_heating(solid: Solid, speed: float, scales: Groups) -> float:
 def peclet_number(solid: Solid, speed: float, scales: Groups) -> float:
     """Compute the Peclet number of a surface.
 
-    Parameters
-    ----------
-    solid : Solid
-        Material of the surface.
-    speed : float
-        Speed u of the surface [m/s].
-    scales : Groups
-        Half width b of the contact.
-
-    Returns
-    -------
-    float
-        Peclet number [-]; if it is below about 5, heat also spreads along the surface.
-
-    Notes
-    -----
-    Eq. E11: Pe = u b rho c/(2 lambda).
+    Eq. E11: Pe = u b rho c/(2 lambda). Returns peclet number [-]; if it is below about 5, heat also spreads along the
+    surface.
     """
     return speed * scales.half_width * solid.density * solid.specific_heat / (2.0 * solid.thermal_conductivity)

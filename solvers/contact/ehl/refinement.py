@@ -70,28 +70,11 @@ def departure(inputs: LineContactInputs, curves: ContactCurves, field: ContactFi
 
 
 def surface_heating(solid: Solid, speed: float, x: FloatArray, flux: FloatArray) -> FloatArray:
-    """Compute the temperature rise of a surface under a heat flux that varies linearly between positions.
+    """Compute the temperature rise of a surface under a heat flux that varies linearly between positions [K].
 
-    Parameters
-    ----------
-    solid : Solid
-        Material of the surface.
-    speed : float
-        Speed u of the surface [m/s].
-    x : FloatArray
-        Positions (n,) [m].
-    flux : FloatArray
-        Heat flux into the surface (n,) [W/m^2].
-
-    Returns
-    -------
-    FloatArray
-        Temperature rise (n,) [K].
-
-    Notes
-    -----
     Eq. E12: (pi rho c lambda u)^-1/2 int q(s) (x - s)^-1/2 ds, for strip sources on a fast half-space (Carslaw and
-    Jaeger).
+    Jaeger). `x`: positions (n,) [m]; `flux`: heat flux into the surface (n,) [W/m^2]. Returns temperature rise (n,)
+    [K].
     """
     effusivity_squared = solid.density * solid.specific_heat * solid.thermal_conductivity
     return strip_integral(x, flux) / sqrt(pi * effusivity_squared * speed)

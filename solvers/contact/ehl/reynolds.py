@@ -43,22 +43,9 @@ def face_arrays(nodes: int) -> FaceFluxes:
 
 @inner_kernel
 def film_shape(grid: Grid, pressure: FloatArray, separation: float, film: FloatArray) -> None:
-    """Compute the film thickness H = H0 + X^2/2 + K P at all nodes, in place.
+    """Compute the film thickness H = H0 + X^2/2 + K P at all nodes, in place (Eq. 21).
 
-    Parameters
-    ----------
-    grid : Grid
-        Mesh with n nodes.
-    pressure : FloatArray
-        Pressures P (n,) [Hertzian pressure].
-    separation : float
-        Rigid separation H0 [b^2/R].
-    film : FloatArray
-        Receives H (n,) [b^2/R].
-
-    Notes
-    -----
-    Eq. 21.
+    `pressure`: pressures P (n,) [Hertzian pressure]; `film`: receives H (n,) [b^2/R].
     """
     multiply(grid.deflection, pressure, film)
     for i in range(film.size):
@@ -81,23 +68,11 @@ def gradient_stencil(x: FloatArray, i: int, cavitated: BoolArray) -> tuple[int, 
 def pressure_gradients(x: FloatArray, pressure: FloatArray, cavitated: BoolArray, gradient: FloatArray) -> None:
     """Compute dP/dX at all nodes, in place.
 
-    Parameters
-    ----------
-    x : FloatArray
-        Nodes (n,) [half widths].
-    pressure : FloatArray
-        Pressures P (n,) [Hertzian pressure].
-    cavitated : BoolArray
-        Whether the film is broken at the nodes (n,).
-    gradient : FloatArray
-        Receives dP/dX (n,) [-].
-
-    Notes
-    -----
     Eq. E14: the difference is one-sided at the inlet and at the last node before the rupture, zero where the film is
     broken, and central at all other nodes. At the last node before the rupture the difference is forward, so that the
     gradient vanishes if the pressure of this node vanishes. The node can then join the broken film without a jump of
-    the gradient.
+    the gradient. `x`: nodes (n,) [half widths]; `pressure`: pressures P (n,) [Hertzian pressure]; `cavitated`: whether
+    the film is broken at the nodes (n,); `gradient`: receives dP/dX (n,) [-].
     """
     for i in range(x.size):
         left, right, factor = gradient_stencil(x, i, cavitated)
@@ -132,28 +107,10 @@ def mass_fluxes(
 ) -> None:
     """Compute the mass fluxes through the faces between the nodes, and some of their derivatives, in place.
 
-    The derivatives are those with respect to ln A and B.
-
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    x : FloatArray
-        Nodes (n,) [half widths].
-    pressure : FloatArray
-        Pressures P (n,) [Hertzian pressure].
-    film : FloatArray
-        Film thickness H (n,) [b^2/R].
-    coefficients : FlowCoefficients
-        Coefficients ln A and B of the nodes.
-    faces : FaceFluxes
-        Receives fluxes and derivatives.
-
-    Notes
-    -----
-    Eqs. E7, E13: m = B H - A H^3 dP/dX. The Couette part is extrapolated from the two nodes upstream, with an error of
-    second order. First-order upwinding would make the film 12 per cent thicker. The Poiseuille part uses the
-    logarithmic mean of A.
+    The derivatives are those with respect to ln A and B. Eqs. E7, E13: m = B H - A H^3 dP/dX. The Couette part is
+    extrapolated from the two nodes upstream, with an error of second order. First-order upwinding would make the film
+    12 per cent thicker. The Poiseuille part uses the logarithmic mean of A. `x`: nodes (n,) [half widths]; `pressure`:
+    pressures P (n,) [Hertzian pressure]; `film`: film thickness H (n,) [b^2/R].
     """
     couette_scale, poiseuille_scale = _flux_scales(problem)
     log_a, b = coefficients.log_a, coefficients.b
@@ -259,25 +216,11 @@ def add_flux_changes(
 def balance_of_mass(
     grid: Grid, pressure: FloatArray, cavitated: BoolArray, faces: FaceFluxes, residual: FloatArray
 ) -> None:
-    """Compute the residuals of the balance of mass and of the balance of load, in place.
+    """Compute the residuals of the balance of mass and of the balance of load, in place (Eqs. E7, 22).
 
-    Parameters
-    ----------
-    grid : Grid
-        Mesh with n nodes.
-    pressure : FloatArray
-        Pressures P (n,) [Hertzian pressure].
-    cavitated : BoolArray
-        Whether the film is broken at the nodes (n,).
-    faces : FaceFluxes
-        Mass fluxes through the faces.
-    residual : FloatArray
-        Receives the residuals (n + 1,): P at both ends and at broken nodes; the outflow minus the inflow at all other
-        nodes; after the nodes, the residual of the load [-].
-
-    Notes
-    -----
-    Eqs. E7, 22.
+    `pressure`: pressures P (n,) [Hertzian pressure]; `cavitated`: whether the film is broken at the nodes (n,);
+    `residual`: receives the residuals (n + 1,): P at both ends and at broken nodes; the outflow minus the inflow at all
+    other nodes; after the nodes, the residual of the load [-].
     """
     n = grid.x.size
     residual[n] = -0.5 * np.pi

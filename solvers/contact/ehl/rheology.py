@@ -49,30 +49,7 @@ def limited_gradient(problem: Problem, g: float) -> float:
 
 @inlined_kernel
 def mid_film_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
-    """Compute the shear stress half way across column i for the sliding speed u2 - u1.
-
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    i : int
-        Number of the column.
-    g : float
-        Film thickness times pressure gradient, h dp/dx [Pa].
-    h : float
-        Film thickness [m].
-    shear : Shear
-        Fluidity of the columns.
-
-    Returns
-    -------
-    float
-        Stress tau_m [Pa].
-
-    Notes
-    -----
-    Eq. E6.
-    """
+    """Compute the shear stress half way across column i for the sliding speed u2 - u1 [Pa] (Eq. E6)."""
     if problem.rheology == NEWTONIAN:
         return _newtonian_mid_stress(problem, i, g, h, shear)
     return _eyring_mid_stress(problem, i, g, h, shear)
@@ -117,26 +94,9 @@ def _eyring_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shea
 
 @inlined_kernel
 def shear_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear) -> None:
-    """Compute the stress, the rate and the effective fluidity of column i.
+    """Compute the stress, the rate and the effective fluidity of column i (Eqs. E4, E5).
 
     The function also computes the derivatives of the rate and of the effective fluidity with respect to the stress.
-
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    i : int
-        Number of the column.
-    g : float
-        Film thickness times pressure gradient, h dp/dx [Pa].
-    tau_m : float
-        Mid-film stress [Pa].
-    shear : Shear
-        Fluidity of the columns; receives the values of all intervals.
-
-    Notes
-    -----
-    Eqs. E4, E5.
     """
     if problem.rheology == NEWTONIAN:
         _newtonian_rates(i, g, tau_m, shear)
@@ -180,32 +140,12 @@ def _eyring_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear
 
 @inlined_kernel
 def uniform_shear(problem: Problem, log_eta: float, g: float, h: float) -> tuple[float, float, float, float, float]:
-    """Compute flow and mid-film stress of a film at one temperature.
+    """Compute flow and mid-film stress of a film at one temperature [Pa] (Eq. E7.2).
 
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    log_eta : float
-        Logarithm of the viscosity, ln(eta/Pa s) [-].
-    g : float
-        G = h dp/dx [Pa].
-    h : float
-        Film thickness [m].
-
-    Returns
-    -------
-    tuple of float
-        Five numbers: the logarithm ln(12 eta A/rho) [-]; the derivatives of this logarithm with respect to ln eta [-],
-        to G [1/Pa] and to h [1/m]; the mid-film stress tau_m [Pa].
-
-    Notes
-    -----
-    Eq. E7.2. A Newtonian oil has A = rho/(12 eta). For a Ree-Eyring oil, s = G/(2 tau0) and
-    sinh a = eta du s/(tau0 h sinh s), where du is u2 - u1. Then tau_m = tau0 a, and
-    12 eta A/rho = 3 cosh(a) (s cosh s - sinh s)/s^3. In the code, `sigma` is s/sinh s and `phi` is
-    3 (s cosh s - sinh s)/s^3. If s is small, both are computed by series. `sigma_slope` and `phi_slope` are the
-    derivatives of ln sigma and ln phi with respect to s.
+    A Newtonian oil has A = rho/(12 eta). For a Ree-Eyring oil, s = G/(2 tau0) and sinh a = eta du s/(tau0 h sinh s),
+    where du is u2 - u1. Then tau_m = tau0 a, and 12 eta A/rho = 3 cosh(a) (s cosh s - sinh s)/s^3. In the code, `sigma`
+    is s/sinh s and `phi` is 3 (s cosh s - sinh s)/s^3. If s is small, both are computed by series. `sigma_slope` and
+    `phi_slope` are the derivatives of ln sigma and ln phi with respect to s.
     """
     du = problem.speed_2 - problem.speed_1
     if problem.rheology == NEWTONIAN:

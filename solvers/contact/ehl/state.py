@@ -89,26 +89,11 @@ def evaluate_flow(problem: Problem, grid: Grid, state: State, work: Work) -> boo
 
 @inner_kernel
 def fluid_fractions(problem: Problem, state: State, work: Work) -> float:
-    """Compute the fraction of the gap that oil fills at each node, in place.
+    """Compute the fraction of the gap that oil fills at each node, in place [kg/(m s)] (Eq. E8.2).
 
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    state : State
-        Pressures and broken nodes.
-    work : Work
-        Flow of the columns; receives the fractions (n,) [-].
-
-    Returns
-    -------
-    float
-        Mass flux per width [kg/(m s)].
-
-    Notes
-    -----
-    Eq. E8.2. Where the film is broken, oil fills only the fraction of the gap that is needed to carry the mass flux.
-    The mass flux is taken at the largest pressure, where the flux hardly depends on the pressure gradient.
+    Where the film is broken, oil fills only the fraction of the gap that is needed to carry the mass flux. The mass
+    flux is taken at the largest pressure, where the flux hardly depends on the pressure gradient. `work`: flow of the
+    columns; receives the fractions (n,) [-]. Returns mass flux per width [kg/(m s)].
     """
     flux = work.faces.flux[state.pressure.argmax()] * problem.flux_scale
     for i in range(state.pressure.size):
@@ -119,22 +104,11 @@ def fluid_fractions(problem: Problem, state: State, work: Work) -> float:
 
 @inner_kernel
 def match_stream(problem: Problem, state: State, work: Work) -> None:
-    """Compute, in place, stream functions with the same mass flux in all columns.
+    """Compute, in place, stream functions with the same mass flux in all columns (Eq. E8.1).
 
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    state : State
-        Pressures and broken nodes.
-    work : Work
-        Flow of the columns; receives their stream functions.
-
-    Notes
-    -----
-    Eq. E8.1. In a full column the surfaces drag a part of the mass flux; the remaining part has the profile of pressure
-    flow. A broken column has the stream function of the last full column. Because the mass flux is the same in all
-    columns, convection conserves mass even if the iteration has not converged yet.
+    In a full column the surfaces drag a part of the mass flux; the remaining part has the profile of pressure flow. A
+    broken column has the stream function of the last full column. Because the mass flux is the same in all columns,
+    convection conserves mass even if the iteration has not converged yet.
     """
     flow, heat = work.film.flow, work.heat
     flux = fluid_fractions(problem, state, work)

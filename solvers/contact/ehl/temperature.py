@@ -130,24 +130,12 @@ def temperature_step(
 
 @inner_kernel
 def inlet_step(problem: Problem, work: Work, temperature: FloatArray, step: FloatArray) -> None:
-    """Compute the temperature step of the first column, in place.
+    """Compute the temperature step of the first column, in place (Eq. E8.3).
 
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    work : Work
-        Flow of the columns.
-    temperature : FloatArray
-        Temperatures (n, k) [K].
-    step : FloatArray
-        Temperature step (n, k) [K]; receives the first column.
-
-    Notes
-    -----
-    Eq. E8.3. The walls have their bulk temperatures. Oil that flows into the contact has the temperature of the inlet.
-    Oil that flows back out of the contact has the temperature of the second column. The heights at which oil flows in
-    follow from the mass flux and a uniform viscosity, so these heights do not depend on the computed temperatures.
+    The walls have their bulk temperatures. Oil that flows into the contact has the temperature of the inlet. Oil that
+    flows back out of the contact has the temperature of the second column. The heights at which oil flows in follow
+    from the mass flux and a uniform viscosity, so these heights do not depend on the computed temperatures.
+    `temperature`: temperatures (n, k) [K]; `step`: temperature step (n, k) [K]; receives the first column.
     """
     nodes = step.shape[1]
     u1, u2 = problem.speed_1, problem.speed_2

@@ -124,35 +124,10 @@ def passages(gas: Gas, left: Side, right: Side) -> tuple[Passage, Passage]:
 def advance(
     gas: Gas, width: float, discharge: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
 ) -> tuple[bool, float]:
-    """Compute pressure and mass of the active pockets at the end of a time step.
+    """Compute pressure and mass of the active pockets at the end of a time step (Eqs. 1, 3, P5).
 
-    Parameters
-    ----------
-    gas : Gas
-        The perfect gas and its ambient state.
-    width : float
-        Width of a pocket along the face [m].
-    discharge : float
-        Discharge coefficient of all openings.
-    pockets : RecordArray
-        Records of POCKET, (pockets + 1,); the new states and the balances are changed in place.
-    low, high : int
-        Index of the first active pocket, and index of the pocket after the last active pocket.
-    dt : float
-        Length of the step [s].
-    isentropic : bool
-        Whether pockets keep their entropy instead of conserving energy.
-
-    Returns
-    -------
-    converged : bool
-        Whether Newton's method converged.
-    error : float
-        Largest residual, relative to the content of its pocket at ambient pressure.
-
-    Notes
-    -----
-    Eqs. 1, 3, P5.
+    Returns `converged`: whether Newton's method converged; `error`: largest residual, relative to the content of its
+    pocket at ambient pressure.
     """
     error, share, halvings, newton = np.inf, 0.0, 0, 0
     for i in range(low, high):

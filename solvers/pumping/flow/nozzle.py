@@ -54,30 +54,11 @@ def gas(ambient: Ambient) -> Gas:
 def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tuple[float, float, float]:
     """Compute the square G^2 of the mass flux, and the derivatives of G^2 with respect to both pressures.
 
-    Parameters
-    ----------
-    gas : Gas
-        The perfect gas.
-    upstream : float
-        Pressure at rest upstream [Pa].
-    density : float
-        Density at rest upstream [kg/m^3].
-    drop : float
-        Pressure drop relative to the upstream pressure.
-
-    Returns
-    -------
-    squared : float
-        Square of the mass flux [kg^2/(s^2 m^4)]; for a negative drop, a linear continuation with negative values.
-    by_upstream : float
-        Derivative with respect to the upstream pressure at a fixed density upstream [kg^2/(s^2 m^4 Pa)].
-    by_downstream : float
-        Derivative with respect to the downstream pressure [kg^2/(s^2 m^4 Pa)].
-
-    Notes
-    -----
     Eq. P4: G^2 = 2 g/(g - 1) p rho y (y - x), where x is the ratio of the pressures and y = x^(1/g) is the ratio of the
-    densities. The result keeps its relative accuracy however small the pressure drop is.
+    densities. The result keeps its relative accuracy however small the pressure drop is. Returns `squared`: square of
+    the mass flux [kg^2/(s^2 m^4)]; for a negative drop, a linear continuation with negative values; `by_upstream`:
+    derivative with respect to the upstream pressure at a fixed density upstream [kg^2/(s^2 m^4 Pa)]; `by_downstream`:
+    derivative with respect to the downstream pressure [kg^2/(s^2 m^4 Pa)].
     """
     power = 1.0 / gas.exponent
     if drop <= 0.0:
@@ -118,29 +99,9 @@ def _expansion(power: float, drop: float) -> tuple[float, float]:
 def mass_flux(gas: Gas, upstream: float, density: float, downstream: float) -> tuple[float, float, float]:
     """Compute the mass flux G through an opening, and the derivatives of G with respect to both pressures.
 
-    Parameters
-    ----------
-    gas : Gas
-        The perfect gas.
-    upstream : float
-        Pressure at rest upstream [Pa].
-    density : float
-        Density at rest upstream [kg/m^3].
-    downstream : float
-        Pressure downstream [Pa].
-
-    Returns
-    -------
-    flux : float
-        Mass flux [kg/(s m^2)].
-    by_upstream : float
-        Derivative with respect to the upstream pressure at a fixed density upstream [kg/(s m^2 Pa)].
-    by_downstream : float
-        Derivative with respect to the downstream pressure [kg/(s m^2 Pa)].
-
-    Notes
-    -----
-    Eq. P4 without the discharge coefficient.
+    Eq. P4 without the discharge coefficient. Returns `flux`: mass flux [kg/(s m^2)]; `by_upstream`: derivative with
+    respect to the upstream pressure at a fixed density upstream [kg/(s m^2 Pa)]; `by_downstream`: derivative with
+    respect to the downstream pressure [kg/(s m^2 Pa)].
     """
     drop = (upstream - downstream) / upstream
     if drop < _LINEAR:
@@ -163,26 +124,7 @@ def throat_mach(gas: Gas, upstream: float, downstream: float) -> float:
 
 
 def choked_mass_flux(gas: Gas, pressure: float, temperature: float) -> float:
-    """Compute the largest mass flux from a stagnation state.
-
-    Parameters
-    ----------
-    gas : Gas
-        The perfect gas.
-    pressure : float
-        Stagnation pressure [Pa].
-    temperature : float
-        Stagnation temperature [K].
-
-    Returns
-    -------
-    float
-        Mass flux of the choked opening [kg/(s m^2)].
-
-    Notes
-    -----
-    Eq. 7 divided by the area of the opening.
-    """
+    """Compute the largest mass flux from a stagnation state [kg/(s m^2)]. Eq. 7 divided by the area of the opening."""
     g, r = gas.exponent, gas.constant
     velocity_factor: float = (2 / (g + 1)) ** (1 / (g - 1)) * sqrt(2 * g * r / (g + 1))
     return velocity_factor * pressure / (r * sqrt(temperature))

@@ -84,27 +84,7 @@ def add_outflow(record: Record, end: int, step: int, mass: float, energy: float)
 
 @inner_kernel
 def add_means(profile: RecordArray, i: int, static: float, stagnation: float, dt: float, share: float) -> None:
-    """Add the temperatures of a cell in one step to their integrals over the stroke.
-
-    Parameters
-    ----------
-    profile : RecordArray
-        Records of PROFILE, (cells,); changed in place.
-    i : int
-        Index of the cell.
-    static : float
-        Mean static temperature of the cell in the step [K].
-    stagnation : float
-        Mean stagnation temperature of the cell in the step [K].
-    dt : float
-        Length of the step [s].
-    share : float
-        Share of the step in which the cell is in its stroke.
-
-    Notes
-    -----
-    Eq. P10.
-    """
+    """Add the temperatures of a cell in one step to their integrals over the stroke (Eq. P10)."""
     profile[i].static += static * dt * share
     profile[i].stagnation += stagnation * dt * share
     profile[i].active += dt * share

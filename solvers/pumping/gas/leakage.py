@@ -57,33 +57,9 @@ class Stage(NamedTuple):
 def implicit_stage(
     gas: Gas, walls: Walls, mass: float, momentum: float, energy: float, h: float, guess: float
 ) -> Stage:
-    """Compute the exchange of a cell with its walls over one stage of the backward Euler method.
+    """Compute the exchange of a cell with its walls over one stage of the backward Euler method (Eq. P7).
 
-    Parameters
-    ----------
-    gas : Gas
-        The perfect gas and its ambient state.
-    walls : Walls
-        Walls of the cell at the end of the stage.
-    mass : float
-        Mass before the stage [kg/m].
-    momentum : float
-        Momentum before the stage [kg/s].
-    energy : float
-        Energy before the stage [J/m].
-    h : float
-        Length of the stage [s].
-    guess : float
-        First guess of the flux through the gaps [kg/(s m)].
-
-    Returns
-    -------
-    Stage
-        The content after the stage and the rates of loss.
-
-    Notes
-    -----
-    Eq. P7. In a cell without gaps, only the flanks carry gas out, and the gas does work on the walls. For such a cell,
+    In a cell without gaps, only the flanks carry gas out, and the gas does work on the walls. For such a cell,
     `stiffness` [m^2] in the code is the internal energy before the stage divided by the pressure after the stage.
     """
     g, area = gas.exponent, walls.area

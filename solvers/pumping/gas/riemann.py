@@ -34,24 +34,6 @@ class Conserved(NamedTuple):
 def flux(g: float, area: float, state: State, ram: float) -> Conserved:
     """Compute the flux of a state through an area: A (rho u, rho u^2 + p, u (rho E + p)).
 
-    Parameters
-    ----------
-    g : float
-        Isentropic exponent.
-    area : float
-        Area [m^2]; with an area of 1 the result is the flux per area.
-    state : State
-        State of the gas at the face.
-    ram : float
-        Ram pressure rho u^2 of this state [Pa].
-
-    Returns
-    -------
-    Conserved
-        Flux of mass [kg/s], momentum [N] and energy [W].
-
-    Notes
-    -----
     Eq. P6 with rho E = p/(g - 1) + rho u^2/2. The caller computes the ram pressure, because the rounding of the ram
     pressure matters: a march amplifies a difference in the last digit to 1e-7 of a result.
     """
@@ -107,28 +89,13 @@ def _star_flux(g: float, state: State, s: float, s_m: float) -> Conserved:
 
 @inner_kernel
 def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
-    """Compute the state of a face that opens into the ambient, and the demand of this face.
+    """Compute the state of a face that opens into the ambient, and the demand of this face (Eq. P8).
 
-    Parameters
-    ----------
-    gas : Gas
-        The perfect gas and its ambient state.
-    cell : State
-        State of the cell at the face, with the velocity positive outwards.
-
-    Returns
-    -------
-    face : State
-        State of the face. Outflow expands to the ambient pressure. If this expansion would lead to more than Mach 1,
-        the outflow only expands to Mach 1. Inflow comes from ambient gas at rest. If the cell is supersonic outwards,
-        the face has the state of the cell.
-    demand : float
-        Mach number of an expansion to the ambient pressure; negative for inflow, which expands to the pressure of the
-        cell. If the magnitude of the demand is above 1, the face is choked, or the cell is supersonic.
-
-    Notes
-    -----
-    Eq. P8.
+    `cell`: state of the cell at the face, with the velocity positive outwards. Returns `face`: state of the face.
+    Outflow expands to the ambient pressure. If this expansion would lead to more than Mach 1, the outflow only expands
+    to Mach 1. Inflow comes from ambient gas at rest. If the cell is supersonic outwards, the face has the state of the
+    cell; `demand`: mach number of an expansion to the ambient pressure; negative for inflow, which expands to the
+    pressure of the cell. If the magnitude of the demand is above 1, the face is choked, or the cell is supersonic.
     """
     g = gas.exponent
     rho, v, p = cell

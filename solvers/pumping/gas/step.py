@@ -125,32 +125,7 @@ def _put(walls: RecordArray, i: int, wall: Wall, share: float) -> None:
 
 @inner_kernel
 def step(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float, order: int) -> bool:
-    """Advance the active cells by one time step.
-
-    Parameters
-    ----------
-    gas : Gas
-        The perfect gas and its ambient state.
-    duct : Duct
-        The stretch of tooth space.
-    cells : Cells
-        Arrays of the duct; `next_content` and `next_state` are the result, changed in place.
-    low, high : int
-        First active cell, and the cell after the last active cell.
-    dt : float
-        Length of the step [s].
-    order : int
-        Order of the method, 1 or 2.
-
-    Returns
-    -------
-    bool
-        Whether the new states are physical.
-
-    Notes
-    -----
-    Eq. P6.
-    """
+    """Advance the active cells by one time step (Eq. P6)."""
     _set_slopes(cells, low, high, order)
     if not _predict(gas, duct, cells, low, high, dt):
         return False

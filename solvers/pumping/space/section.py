@@ -150,25 +150,11 @@ def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tup
 
 @inner_kernel
 def section(space: ToothSpace, angle: float) -> Section:
-    """Compute the section of a tooth space at an angle of its owner.
+    """Compute the section of a tooth space at an angle of its owner (Eqs. 5, P3).
 
-    Parameters
-    ----------
-    space : ToothSpace
-        Shape and motion of the space and of the mate's tooth.
-    angle : float
-        Angle of the owner, 0 if the space is on the line of centres [rad].
-
-    Returns
-    -------
-    Section
-        Free area [m^2], clearances [m], and volume of gas per face width that the flanks have carried out of the space
-        [m^2]. Only differences of this volume between two angles have a meaning.
-
-    Notes
-    -----
-    Eqs. 5, P3. On the coast side, the gap between the flanks lies on the line of action. The flanks carry gas through
-    this gap: out of the space if the owner of the space drives, else into the space.
+    On the coast side, the gap between the flanks lies on the line of action. The flanks carry gas through this gap: out
+    of the space if the owner of the space drives, else into the space. `angle`: angle of the owner, 0 if the space is
+    on the line of centres [rad].
     """
     mate_angle = angle * space.ratio + space.offset
     left_gap = 0.0 if space.owner_drives else space.backlash_gap

@@ -66,24 +66,7 @@ class StrokeLimits:
 
 
 def circumferential_backlash(pair: GearPair, normal_backlash: float) -> float:
-    """Compute the circumferential backlash j_t on the working circles.
-
-    Parameters
-    ----------
-    pair : GearPair
-        The gear pair at its centre distance.
-    normal_backlash : float
-        Normal backlash due to a thinner tooth of the mate, in addition to the backlash of the centre distance [m].
-
-    Returns
-    -------
-    float
-        Circumferential backlash; the sum of the parts due to the centre distance and due to the thinner tooth [m].
-
-    Notes
-    -----
-    Eq. P1.
-    """
+    """Compute the circumferential backlash j_t on the working circles [m] (Eq. P1)."""
     radius_1, radius_2 = pair.pinion_working_radius, pair.wheel_working_radius
     thickness_1 = 2 * radius_1 * pair.pinion.half_tooth_angle(radius_1)
     thickness_2 = 2 * radius_2 * pair.wheel.half_tooth_angle(radius_2)
@@ -149,23 +132,7 @@ def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: b
 
 
 def stroke_limits(space: ToothSpace) -> StrokeLimits:
-    """Compute the angles between which the mating gear's tooth is in a tooth space, and in contact.
-
-    Parameters
-    ----------
-    space : ToothSpace
-        Shape and motion of the space and of the mate's tooth.
-
-    Returns
-    -------
-    StrokeLimits
-        Angles of the gear to which the space belongs [rad]. At `start` the first tip corner of the mate's tooth crosses
-        this gear's tip circle; at `end` the last tip corner crosses this circle.
-
-    Notes
-    -----
-    Eq. P2.
-    """
+    """Compute the angles between which the mating gear's tooth is in a tooth space, and in contact (Eq. P2)."""
     a, tip, mate_tip = space.centre_distance, space.tip_radius, space.mate_tip_radius
     reach = acos((a**2 + mate_tip**2 - tip**2) / (2 * a * mate_tip)) + space.mate_tip_half_angle
     approach = (space.first_contact - space.pitch_roll) / space.base_radius

@@ -50,25 +50,10 @@ def check_micropitting(
 ) -> CheckedFlank:
     """Compare the film ratio over the flank with the permissible film ratio.
 
-    Parameters
-    ----------
-    inputs : ScuffingInputs
-        Inputs of the scuffing check. If the friction, a temperature or a value of the oil is estimated, the inputs must
-        already contain the estimate.
-    distribution : LoadDistribution
-        Load distribution of the pair.
-    grid : FlashMap
-        Points of the flank at which the film is computed, and the load at these points.
-    thermal_film : float, optional
-        Thinnest film by thermal EHL [m]; None if this film is unknown.
-    bulk : callable, optional
-        Function that returns the bulk temperature [K] along the face; None if the bulk temperature is constant.
-
-    Returns
-    -------
-    CheckedFlank
-        Answer, film and warnings. If the check is not requested, or if the oil or the bulk temperature is unknown, all
-        values are None and there are no warnings.
+    `thermal_film`: thinnest film by thermal EHL [m]; None if this film is unknown; `bulk`: function that returns the
+    bulk temperature [K] along the face; None if the bulk temperature is constant. Returns answer, film and warnings. If
+    the check is not requested, or if the oil or the bulk temperature is unknown, all values are None and there are no
+    warnings.
     """
     check, oil = inputs.micropitting, inputs.known_oil
     if check is None or oil is None or inputs.temperatures.bulk is None:

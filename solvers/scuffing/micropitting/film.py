@@ -60,20 +60,6 @@ class Films(NamedTuple):
 def films(conditions: Conditions, contacts: Contacts) -> Films:
     """Compute the flash temperature, the film and the film ratio lambda = h / Ra of contacts.
 
-    Parameters
-    ----------
-    conditions : Conditions
-        Values that the contacts share.
-    contacts : Contacts
-        The contacts.
-
-    Returns
-    -------
-    Films
-        Flash temperature, film and film ratio of every contact.
-
-    Notes
-    -----
     Eq. M7 of the chapter on micropitting.
     """
     flash = flash_temperature(conditions, contacts)
@@ -82,22 +68,8 @@ def films(conditions: Conditions, contacts: Contacts) -> Films:
 
 
 def flash_temperature(conditions: Conditions, contacts: Contacts) -> FloatArray:
-    """Compute the flash temperature of contacts.
+    """Compute the flash temperature of contacts [K].
 
-    Parameters
-    ----------
-    conditions : Conditions
-        Values that the contacts share.
-    contacts : Contacts
-        The contacts.
-
-    Returns
-    -------
-    ndarray
-        Flash temperature [K].
-
-    Notes
-    -----
     Eq. M4 of the chapter on micropitting; formula 80 of ISO/TR 15144-1.
     """
     pressure, radius, pinion_speed, wheel_speed = contacts
@@ -115,27 +87,10 @@ def _effusivity(solid: Solid) -> float:
 
 
 def film_thickness(conditions: Conditions, contacts: Contacts, flash: FloatArray) -> FloatArray:
-    """Compute the film of contacts.
+    """Compute the film of contacts [m].
 
-    The film is computed at the bulk temperature and then reduced, because the flash temperature thins the oil.
-
-    Parameters
-    ----------
-    conditions : Conditions
-        Values that the contacts share.
-    contacts : Contacts
-        The contacts.
-    flash : ndarray
-        Flash temperature [K].
-
-    Returns
-    -------
-    ndarray
-        Film [m].
-
-    Notes
-    -----
-    Eqs. M5 and M6 of the chapter on micropitting; formulas 4 and 27 of ISO/TR 15144-1.
+    The film is computed at the bulk temperature and then reduced, because the flash temperature thins the oil. Eqs. M5
+    and M6 of the chapter on micropitting; formulas 4 and 27 of ISO/TR 15144-1.
     """
     oil, bulk, modulus = conditions.oil, np.asarray(conditions.bulk), conditions.modulus
     thickness, coefficient = viscosity(oil, bulk), pressure_viscosity(oil, bulk)

@@ -83,19 +83,8 @@ def flank_film(
 def find_least(flank: FlankFilm, grid: FlashMap, ratio: FloatArray) -> Peak | None:
     """Find the least film ratio over the flank.
 
-    Parameters
-    ----------
-    flank : FlankFilm
-        The values on which the film ratio depends.
-    grid : FlashMap
-        The grid of the flash temperature.
-    ratio : ndarray
-        Film ratio at the points of the grid.
-
-    Returns
-    -------
-    Peak or None
-        Least ratio and its place [m]; None if the flanks touch nowhere, or if the loaded path reaches a base circle.
+    Returns least ratio and its place [m]; None if the flanks touch nowhere, or if the loaded path reaches a base
+    circle.
     """
     if np.isnan(ratio).all() or reaches_base_circle(flank.distribution.balance.survey):
         return None

@@ -13,23 +13,10 @@ MM = 1e-3  # m
 
 
 def helical_load_factor(total_contact_ratio: float) -> float:
-    """Compute the helical load factor.
+    """Compute the helical load factor [-].
 
-    In the formula of the mean coefficient of friction, the line load of helical gears is multiplied by this factor.
-
-    Parameters
-    ----------
-    total_contact_ratio : float
-        Total contact ratio [-].
-
-    Returns
-    -------
-    float
-        Helical load factor K_Bgamma [-].
-
-    Notes
-    -----
-    Eq. M8 of the chapter on micropitting; formulas 88 to 90 of ISO/TR 15144-1.
+    In the formula of the mean coefficient of friction, the line load of helical gears is multiplied by this factor. Eq.
+    M8 of the chapter on micropitting; formulas 88 to 90 of ISO/TR 15144-1.
     """
     if total_contact_ratio <= 2.0:
         return 1.0
@@ -45,28 +32,8 @@ def mean_friction(
     oil_temperature: float,
     face_load_factor: float,
 ) -> float:
-    """Compute the mean coefficient of friction of a mesh.
+    """Compute the mean coefficient of friction of a mesh [-].
 
-    Parameters
-    ----------
-    given : LoadDistributionInputs
-        The pair and its load; neither torque nor speed is 0.
-    path : PathOfContact
-        The path of contact of the pair.
-    oil : OilSheet or Lubricant
-        The oil.
-    oil_temperature : float
-        Temperature of the oil [K].
-    face_load_factor : float
-        Face load factor K_Hbeta [-].
-
-    Returns
-    -------
-    float
-        Coefficient of friction [-].
-
-    Notes
-    -----
     Eq. M9 of the chapter on micropitting. The transverse load factor K_Halpha is set to 1.
     """
     at_pitch = path.pitch_point - path.start
@@ -82,22 +49,7 @@ def mean_friction(
 
 
 def loss_factor(path: PathOfContact) -> float:
-    """Compute the loss factor of a mesh.
-
-    Parameters
-    ----------
-    path : PathOfContact
-        The path of contact of the pair, with a transverse contact ratio of at most 2.
-
-    Returns
-    -------
-    float
-        Loss factor H_v [-].
-
-    Notes
-    -----
-    Eq. M10 of the chapter on micropitting; formula 91 of ISO/TR 15144-1.
-    """
+    """Compute the loss factor of a mesh [-]. Eq. M10 of the chapter on micropitting; formula 91 of ISO/TR 15144-1."""
     pair, pitch = path.pair, path.plane.base_pitch
     approach, recess = (path.pitch_point - path.start) / pitch, (path.end - path.pitch_point) / pitch
     sliding = approach**2 + recess**2 + 1.0 - path.transverse_contact_ratio
@@ -107,29 +59,10 @@ def loss_factor(path: PathOfContact) -> float:
 def bulk_temperature(
     given: LoadDistributionInputs, path: PathOfContact, oil_temperature: float, supply: OilSupply, friction: float
 ) -> float:
-    """Compute the bulk temperature from the friction loss of the mesh, for a pair without tip relief.
+    """Compute the bulk temperature from the friction loss of the mesh, for a pair without tip relief [K].
 
-    Parameters
-    ----------
-    given : LoadDistributionInputs
-        The pair and its load; only the transmitted power is used.
-    path : PathOfContact
-        The path of contact of the pair.
-    oil_temperature : float
-        Temperature of the oil [K].
-    supply : str
-        How the oil reaches the mesh: "spray", "dip" or "submerged".
-    friction : float
-        Mean coefficient of friction [-].
-
-    Returns
-    -------
-    float
-        Bulk temperature [K].
-
-    Notes
-    -----
-    Eq. M11 of the chapter on micropitting; formula 84 of ISO/TR 15144-1.
+    Eq. M11 of the chapter on micropitting; formula 84 of ISO/TR 15144-1. `given`: the pair and its load; only the
+    transmitted power is used.
     """
     power = given.load.transmitted_power * 1e-3
     area = path.pair.centre_distance * given.gears.face_width / MM**2

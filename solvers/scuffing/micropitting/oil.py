@@ -32,21 +32,8 @@ REFERENCE_COEFFICIENT: dict[OilKind, tuple[float, float]] = {
 def density(sheet: OilSheet, temperature: Real) -> Real:
     """Compute the density of an oil.
 
-    Parameters
-    ----------
-    sheet : OilSheet
-        The oil. If the density at 15 C is not given, this density is estimated from the viscosity at 40 C.
-    temperature : float or ndarray
-        Temperature [K].
-
-    Returns
-    -------
-    float or ndarray
-        Density [kg/m^3]; 0 at temperatures at which the law would give a negative density.
-
-    Notes
-    -----
-    Eq. M1 of the chapter on micropitting.
+    Eq. M1 of the chapter on micropitting. Returns density [kg/m^3]; 0 at temperatures at which the law would give a
+    negative density.
     """
     reference = sheet.density_15
     if reference is None:
@@ -56,29 +43,11 @@ def density(sheet: OilSheet, temperature: Real) -> Real:
 
 
 def viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
-    """Compute the dynamic viscosity of an oil at ambient pressure.
+    """Compute the dynamic viscosity of an oil at ambient pressure [Pa s].
 
-    Parameters
-    ----------
-    oil : OilSheet or Lubricant
-        The oil.
-    temperature : float or ndarray
-        Temperature [K].
-
-    Returns
-    -------
-    float or ndarray
-        Viscosity [Pa s].
-
-    Raises
-    ------
-    InvalidInput
-        `viscosity_range` if the law of a `Lubricant` gives a viscosity that is too high for any oil.
-
-    Notes
-    -----
     Eq. M2 of the chapter on micropitting. The equation holds for an oil that is given by a data sheet. For an oil that
-    is given by its viscosity, the temperature law of `Lubricant` is used instead.
+    is given by its viscosity, the temperature law of `Lubricant` is used instead. Raises InvalidInput:
+    `viscosity_range` if the law of a `Lubricant` gives a viscosity that is too high for any oil.
     """
     if isinstance(oil, OilSheet):
         intercept, slope = oil.walther()
@@ -96,22 +65,8 @@ def viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
 
 
 def pressure_viscosity(oil: OilSheet | Lubricant, temperature: Real) -> Real:
-    """Compute the pressure-viscosity coefficient of an oil.
+    """Compute the pressure-viscosity coefficient of an oil [1/Pa].
 
-    Parameters
-    ----------
-    oil : OilSheet or Lubricant
-        The oil.
-    temperature : float or ndarray
-        Temperature [K].
-
-    Returns
-    -------
-    float or ndarray
-        Coefficient [1/Pa].
-
-    Notes
-    -----
     Eq. M3 of the chapter on micropitting. If the coefficient is given, this value is used at every temperature. At
     temperatures above 510 C the law would give a negative coefficient; the coefficient and the film are then 0.
     """

@@ -54,21 +54,7 @@ GEARS = GearPairInputs(
 
 @cache
 def film_of_test(oil: OilSheet | Lubricant, stage: int) -> FilmOfTest:
-    """Compute the film between the test gears, for a given oil and the load stage at which this oil fails.
-
-    Parameters
-    ----------
-    oil : OilSheet or Lubricant
-        The oil.
-    stage : int
-        Failure load stage, 5 to 10.
-
-    Returns
-    -------
-    FilmOfTest
-        The least film ratio and the point of the path at which it occurs; torque, coefficient of friction and bulk
-        temperature of the test.
-    """
+    """Compute the film between the test gears, for a given oil and the load stage at which this oil fails."""
     torque = STAGE_TORQUE[stage]
     given = LoadDistributionInputs(GEARS, Load(torque, SPEED), pinion_material=STEEL, wheel_material=STEEL)
     path = meshing_path(GEARS)
@@ -86,22 +72,9 @@ def film_of_test(oil: OilSheet | Lubricant, stage: int) -> FilmOfTest:
 def permissible_ratio(check: MicropittingCheck, test: FilmOfTest | None) -> float | None:
     """Return the permissible film ratio of the flanks.
 
-    Parameters
-    ----------
-    check : MicropittingCheck
-        Inputs of the check: surfaces of the flanks, material factor and permissible ratio.
-    test : FilmOfTest, optional
-        Film in the test of the oil; None if no failure load stage is given.
-
-    Returns
-    -------
-    float or None
-        Permissible film ratio [-]. If `test` is given, the ratio follows from the film in the test. Otherwise the ratio
-        is the permissible ratio in `check`, which may be None.
-
-    Notes
-    -----
-    Eq. M14 of the chapter on micropitting; formula 3 of ISO/TR 15144-1.
+    Eq. M14 of the chapter on micropitting; formula 3 of ISO/TR 15144-1. `test`: film in the test of the oil; None if no
+    failure load stage is given. Returns permissible film ratio [-]. If `test` is given, the ratio follows from the film
+    in the test. Otherwise the ratio is the permissible ratio in `check`, which may be None.
     """
     if test is None:
         return check.permissible_ratio

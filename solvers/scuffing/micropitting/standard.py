@@ -72,24 +72,8 @@ def has_standard_film(given: LoadDistributionInputs, path: PathOfContact) -> boo
 
 
 def load_sharing(path: PathOfContact, x: FloatArray, quality_grade: int) -> FloatArray:
-    """Compute the load sharing factor of unmodified spur gears.
+    """Compute the load sharing factor of unmodified spur gears [-].
 
-    Parameters
-    ----------
-    path : PathOfContact
-        The path of contact of the pair.
-    x : ndarray
-        Distances from A [m].
-    quality_grade : int
-        Quality grade of the teeth.
-
-    Returns
-    -------
-    ndarray
-        Load sharing factor X at each distance [-].
-
-    Notes
-    -----
     Eq. M12 of the chapter on micropitting; formulas 46 to 48 of ISO/TR 15144-1.
     """
     inner, outer = path.length - path.plane.base_pitch, path.plane.base_pitch
@@ -108,28 +92,7 @@ def solve_standard(
     supply: OilSupply,
     quality_grade: int,
 ) -> StandardFilms:
-    """Compute the film of a spur pair without relief at the seven points of the path.
-
-    Parameters
-    ----------
-    given : LoadDistributionInputs
-        The pair and its load; neither torque nor speed is 0. The modifications are not used.
-    path : PathOfContact
-        The path of contact of the pair. The transverse contact ratio is from 1 to 2; no point is near a base circle.
-    oil : OilSheet or Lubricant
-        The oil.
-    oil_temperature : float
-        Temperature of the oil [K].
-    supply : str
-        How the oil reaches the mesh: "spray", "dip" or "submerged".
-    quality_grade : int
-        Quality grade of the teeth.
-
-    Returns
-    -------
-    StandardFilms
-        Coefficient of friction, bulk temperature, loss factor, and the films at the points.
-    """
+    """Compute the film of a spur pair without relief at the seven points of the path."""
     friction = mean_friction(given, path, oil, oil_temperature, 1.0)
     bulk = bulk_temperature(given, path, oil_temperature, supply, friction)
     x = np.array([*characteristic_points(path).values()])
@@ -142,24 +105,6 @@ def solve_standard(
 def contacts_under(given: LoadDistributionInputs, path: PathOfContact, x: FloatArray, sharing: FloatArray) -> Contacts:
     """Return the contacts of a spur pair under given shares of the tooth force.
 
-    Parameters
-    ----------
-    given : LoadDistributionInputs
-        The pair and its load.
-    path : PathOfContact
-        The path of contact of the pair.
-    x : ndarray
-        Distances from A [m].
-    sharing : ndarray
-        Load sharing factor at each distance [-].
-
-    Returns
-    -------
-    Contacts
-        The contacts.
-
-    Notes
-    -----
     Eq. M13 of the chapter on micropitting; formulas 24 and 25 of ISO/TR 15144-1.
     """
     load = sharing * given.load.contact_torque / (path.pair.pinion.base_radius * given.gears.face_width)

@@ -24,20 +24,6 @@ class WearDepths(NamedTuple):
 def wear_depths(coefficient: float, distribution: LoadDistribution) -> WearDepths:
     """Compute the depth of wear of both flanks.
 
-    Parameters
-    ----------
-    coefficient : float
-        Wear coefficient k [m^3/(N m)].
-    distribution : LoadDistribution
-        Load over the flank.
-
-    Returns
-    -------
-    WearDepths
-        Depth of wear of each gear per revolution of the gear [m]; a tooth meshes once per revolution.
-
-    Notes
-    -----
     Eq. M15 of the chapter on micropitting: the depth of wear per passage through the mesh is k w |v_g| / v_i. Here w is
     the line load, v_g is the sliding speed, and v_i is the surface speed of the gear. At a base circle the surface
     speed of one gear is 0, and the depth of wear would be infinite. Near a base circle the result is therefore NaN
@@ -54,21 +40,7 @@ def wear_depths(coefficient: float, distribution: LoadDistribution) -> WearDepth
 
 
 def solve_wear(coefficient: float, distribution: LoadDistribution) -> Wear:
-    """Compute the wear of both flanks.
-
-    Parameters
-    ----------
-    coefficient : float
-        Wear coefficient [m^3/(N m)].
-    distribution : LoadDistribution
-        Load over the flank.
-
-    Returns
-    -------
-    Wear
-        Results for each flank: the largest depth and its place, the largest depth over the face at every position of
-        the path, and the map of the depth.
-    """
+    """Compute the wear of both flanks."""
     depths = wear_depths(coefficient, distribution)
     pinion, wheel = (_largest(depth, distribution) for depth in depths)
     return Wear(

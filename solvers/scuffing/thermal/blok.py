@@ -9,24 +9,10 @@ from solvers.scuffing.results import ContactPoints
 
 
 def blok_flash(given: LoadDistributionInputs, points: ContactPoints) -> FloatArray:
-    """Compute Blok's flash temperature at points of the flank.
+    """Compute Blok's flash temperature at points of the flank (Eq. 25).
 
-    Parameters
-    ----------
-    given : LoadDistributionInputs
-        The pair with its materials and its coefficient of friction.
-    points : ContactPoints
-        The contacts at the points.
-
-    Returns
-    -------
-    ndarray
-        Flash temperature [K]. It is 0 at points without contact or motion. It is NaN at loaded points that are too near
-        a base circle. If the coefficient of friction is None, the flash temperature is NaN at every point in contact.
-
-    Notes
-    -----
-    Eq. 25.
+    Returns flash temperature [K]. It is 0 at points without contact or motion. It is NaN at loaded points that are too
+    near a base circle. If the coefficient of friction is None, the flash temperature is NaN at every point in contact.
     """
     apart = np.where(points.undefined, np.nan, 0.0)
     if given.friction_coefficient is None:

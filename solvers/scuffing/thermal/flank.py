@@ -132,23 +132,9 @@ def find_hottest(
 ) -> Peak | None:
     """Find the largest flash temperature over the flank, or the largest sum of bulk and flash temperature.
 
-    Parameters
-    ----------
-    given : LoadDistributionInputs
-        The pair, with its coefficient of friction.
-    distribution : LoadDistribution
-        The load distribution of the pair.
-    flash : FlashMap
-        The result of `map_flash` for the pair and its load distribution.
-    bulk : callable, optional
-        Function that returns the bulk temperature [K] at distances y [m] from the end that meshes first. If `bulk` is
-        given, the result is the largest sum of bulk and flash temperature. If `bulk` is None, the result is the largest
-        flash temperature.
-
-    Returns
-    -------
-    Peak or None
-        Largest value [K] and its place [m]; None if the flash temperature of a point is NaN.
+    `bulk`: function that returns the bulk temperature [K] at distances y [m] from the end that meshes first. If `bulk`
+    is given, the result is the largest sum of bulk and flash temperature. If `bulk` is None, the result is the largest
+    flash temperature. Returns largest value [K] and its place [m]; None if the flash temperature of a point is NaN.
     """
     if np.isnan(flash.flash).any():
         return None
@@ -166,21 +152,7 @@ def find_thinnest(
 ) -> Peak | None:
     """Find the thinnest film over the flank by the formula of Dowson and Higginson.
 
-    Parameters
-    ----------
-    given : LoadDistributionInputs
-        The pair.
-    distribution : LoadDistribution
-        The load distribution of the pair.
-    flash : FlashMap
-        The result of `map_flash` for the pair and its load distribution.
-    film_at : callable
-        Function that returns the film [m] of contacts; `formula_film` makes such a function.
-
-    Returns
-    -------
-    Peak or None
-        Thinnest film [m] and its place [m]; None if no point has a film.
+    Returns thinnest film [m] and its place [m]; None if no point has a film.
     """
 
     def value(x: FloatArray, y: FloatArray) -> FloatArray:

@@ -20,27 +20,10 @@ STEEL_EXPANSION = 12e-6  # 1/K, thermal expansion of gears and casing
 def pair_heat(inputs: ScuffingInputs, distribution: LoadDistribution, estimate: float | None) -> Heat:
     """Solve the heat balance of a pair.
 
-    Parameters
-    ----------
-    inputs : ScuffingInputs
-        The pair, its oil (which must be known) and its cooling.
-    distribution : LoadDistribution
-        Load distribution of the pair, with the friction loss of the mesh.
-    estimate : float or None
-        Bulk temperature by ISO/TR 13989-1 [K]; the result only repeats this temperature for comparison.
-
-    Returns
-    -------
-    Heat
-        Temperatures, losses and oil flows of the pair, and the uncertainty band of the temperatures.
-
-    Raises
-    ------
-    InvalidInput
-        `exclusive` if two given values exclude each other, `measured_unreachable` if the model cannot reach a measured
-        temperature.
-    NoSolution
-        `heat_balance` if the iteration does not converge, `thermal_runaway` if the equilibrium is unstable.
+    `estimate`: bulk temperature by ISO/TR 13989-1 [K]; the result only repeats this temperature for comparison. Raises
+    InvalidInput: `exclusive` if two given values exclude each other, `measured_unreachable` if the model cannot reach a
+    measured temperature. Raises NoSolution: `heat_balance` if the iteration does not converge, `thermal_runaway` if the
+    equilibrium is unstable.
     """
     heat = heat_balance.solve(balance_inputs(inputs, distribution, estimate))
     return with_backlash_loss(heat, distribution.path_of_contact.pair)
@@ -120,23 +103,9 @@ def friction_by_formula(inputs: ScuffingInputs, distribution: LoadDistribution) 
 
 
 def friction_to_pinion(given: LoadDistributionInputs, distribution: LoadDistribution) -> float:
-    """Compute the pinion's share of the frictional heat of a mesh.
+    """Compute the pinion's share of the frictional heat of a mesh [-] (Eq. H7).
 
-    Parameters
-    ----------
-    given : LoadDistributionInputs
-        The pair with its materials.
-    distribution : LoadDistribution
-        The load distribution of the pair.
-
-    Returns
-    -------
-    float
-        Share phi [-].
-
-    Notes
-    -----
-    Eq. H7. At every place along the path the frictional heat is summed over the face.
+    At every place along the path the frictional heat is summed over the face.
     """
     path, flank = distribution.path_of_contact, distribution.flank
     along = flank.profile_fraction * path.plane.path_length

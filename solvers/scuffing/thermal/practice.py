@@ -26,20 +26,6 @@ HIGH_RISK_BELOW, LOW_RISK_ABOVE = 1.0, 2.0  # limits of the safety factor; quote
 def lubricant_factor(viscosity: float, kind: OilKind) -> float:
     """Compute the lubricant factor, a factor of the mean coefficient of friction that `mean_friction` returns.
 
-    Parameters
-    ----------
-    viscosity : float
-        Dynamic viscosity at the oil temperature [Pa s].
-    kind : str
-        Kind of the base oil.
-
-    Returns
-    -------
-    float
-        Lubricant factor X_L [-].
-
-    Notes
-    -----
     X_L = eta_oil^-0.05 with eta_oil in mPa s (Eq. R6). For polyalphaolefins this value is multiplied by 0.8, and for
     polyglycols by 0.7. For esters no multiplier is known; esters are treated as mineral oils.
     """
@@ -47,20 +33,8 @@ def lubricant_factor(viscosity: float, kind: OilKind) -> float:
 
 
 def roughness_factor(roughness_1: float, roughness_2: float) -> float:
-    """Compute the roughness factor in the formula of the mean coefficient of friction.
+    """Compute the roughness factor in the formula of the mean coefficient of friction [-].
 
-    Parameters
-    ----------
-    roughness_1, roughness_2 : float
-        Roughness Ra of both flanks [m].
-
-    Returns
-    -------
-    float
-        Roughness factor X_R [-].
-
-    Notes
-    -----
     X_R = [(Ra_1 + Ra_2)/2]^0.25 with Ra in micrometres (Eq. R7).
     """
     return float(((roughness_1 + roughness_2) / 2 * 1e6) ** 0.25)
@@ -72,30 +46,12 @@ def pitch_line_velocity(inputs: LoadDistributionInputs, path: PathOfContact) -> 
 
 
 def mean_friction(inputs: LoadDistributionInputs, path: PathOfContact, factor: float, face_load_factor: float) -> float:
-    """Compute the mean coefficient of friction for the flash temperature.
+    """Compute the mean coefficient of friction for the flash temperature [-].
 
-    Parameters
-    ----------
-    inputs : LoadDistributionInputs
-        The pair and its load; the speed is not 0.
-    path : PathOfContact
-        The path of contact of the pair.
-    factor : float
-        Lubricant factor X_L [-].
-    face_load_factor : float
-        Face load factor K_Hbeta [-].
-
-    Returns
-    -------
-    float
-        Coefficient of friction mu [-].
-
-    Notes
-    -----
-    mu = 0.060 [w_Bt/(v_SigmaC rho_relC)]^0.2 X_L X_R (Eq. R5), with w_Bt = K_A K_v K_gamma K_Hbeta K_Halpha F_t/b.
-    A value of w_Bt below 150 N/mm is raised to 150 N/mm. v_SigmaC is the sum of the tangential speeds at the pitch
-    point, and rho_relC is the reduced radius at the pitch point. F_t acts at the reference circle; the transverse load
-    factor K_Halpha is 1.
+    mu = 0.060 [w_Bt/(v_SigmaC rho_relC)]^0.2 X_L X_R (Eq. R5), with w_Bt = K_A K_v K_gamma K_Hbeta K_Halpha F_t/b. A
+    value of w_Bt below 150 N/mm is raised to 150 N/mm. v_SigmaC is the sum of the tangential speeds at the pitch point,
+    and rho_relC is the reduced radius at the pitch point. F_t acts at the reference circle; the transverse load factor
+    K_Halpha is 1.
     """
     load, width = inputs.load, inputs.gears.face_width
     line_load = face_load_factor * load.contact_factor * load.torque / path.pair.pinion.reference_radius / width
@@ -103,26 +59,8 @@ def mean_friction(inputs: LoadDistributionInputs, path: PathOfContact, factor: f
 
 
 def loss_friction(inputs: LoadDistributionInputs, path: PathOfContact, viscosity: float, kind: OilKind) -> float:
-    """Compute Schlenk's mean coefficient of friction for the losses.
+    """Compute Schlenk's mean coefficient of friction for the losses [-].
 
-    Parameters
-    ----------
-    inputs : LoadDistributionInputs
-        The pair and its load; the speed is not 0.
-    path : PathOfContact
-        The path of contact of the pair.
-    viscosity : float
-        Dynamic viscosity at the oil temperature [Pa s].
-    kind : str
-        Kind of the base oil.
-
-    Returns
-    -------
-    float
-        Coefficient of friction mu [-].
-
-    Notes
-    -----
     mu = 0.048 [w_bt/(v_SigmaC rho_redC)]^0.2 eta_oil^-0.05 Ra^0.25 X_L (Eq. R10). Here w_bt = F_bt/b follows from the
     transmitted torque; values below 150 N/mm are raised to 150 N/mm. F_bt acts at the base circle and does not contain
     load factors. v_SigmaC is the sum of the tangential speeds at the pitch point, and rho_redC is the reduced radius at
@@ -155,46 +93,14 @@ def _rough(inputs: LoadDistributionInputs) -> float:
 def scuffing_temperature(stage: int, structure_factor: float, factor: float) -> float:
     """Compute the scuffing temperature of an oil from the load stage at which the oil fails in the FZG test A/8.3/90.
 
-    Parameters
-    ----------
-    stage : int
-        Load stage S at which the oil fails.
-    structure_factor : float
-        Structural factor X_W of the steel [-].
-    factor : float
-        Lubricant factor X_L [-].
-
-    Returns
-    -------
-    float
-        Scuffing temperature [K].
-
-    Notes
-    -----
     The scuffing temperature is 80 + (0.85 + 1.4 X_W) X_L S^2 in C (Eq. R9).
     """
     return 80.0 + (0.85 + 1.4 * structure_factor) * factor * stage**2 + 273.15
 
 
 def bulk_temperature(oil: float, supply: OilSupply, mean_flash: float) -> float:
-    """Compute the bulk temperature from the mean flash temperature.
+    """Compute the bulk temperature from the mean flash temperature [K].
 
-    Parameters
-    ----------
-    oil : float
-        Oil temperature [K].
-    supply : str
-        How the oil reaches the mesh: "spray", "dip" or "submerged".
-    mean_flash : float
-        Mean flash temperature [K].
-
-    Returns
-    -------
-    float
-        Bulk temperature [K].
-
-    Notes
-    -----
     The bulk temperature is the oil temperature plus 0.47 X_S times the mean flash temperature (Eq. R8).
     """
     return oil + FLASH_SHARE * OIL_SUPPLY_FACTOR[supply] * mean_flash

@@ -142,14 +142,9 @@ def with_temperatures(inputs: ScuffingInputs) -> ScuffingInputs:
     """Return the inputs with the scuffing temperature, and with the lubricant at the bulk temperature.
 
     If no oil is given, the bulk temperature and the lubricant are None. Without a bulk temperature, the lubricant is
-    None.
-
-    Raises
-    ------
-    InvalidInput
-        `missing_bulk` if the method needs a bulk temperature that is not given; `oil_temperature` if the bulk
-        temperature is outside the range of an oil that is given by its data sheet; `scuffing_temperature` if the
-        scuffing temperature is not above the oil temperature.
+    None. Raises InvalidInput: `missing_bulk` if the method needs a bulk temperature that is not given;
+    `oil_temperature` if the bulk temperature is outside the range of an oil that is given by its data sheet;
+    `scuffing_temperature` if the scuffing temperature is not above the oil temperature.
     """
     temperatures, oil = inputs.temperatures, inputs.known_oil
     if oil is None:

@@ -75,10 +75,7 @@ def joined(paths: Sequence[ThermalPath]) -> ThermalPath:
 def solver_notices(lines: Sequence[SolvedLine]) -> tuple[Notice, ...]:
     """Return every warning of the solver once, with the number of points to which it applies.
 
-    Raises
-    ------
-    InvalidInput
-        The error of the solver if the solver refuses every point.
+    Raises InvalidInput: the error of the solver if the solver refuses every point.
     """
     results = [result for line in lines for result in line.results]
     refusals = [refusal for line in lines for refusal in line.refusals]

@@ -77,18 +77,8 @@ def largest_flash(
     """Return the largest flash temperature by Blok, and the largest flash temperature by thermal EHL.
 
     At each point, the thermal EHL solution gives two flash temperatures: one for the pinion and one for the wheel. The
-    larger of the two is used.
-
-    Parameters
-    ----------
-    feature : CheckedLine
-        The feature line.
-    hottest : Peak or None
-        Largest flash temperature by Blok over the flank [K]; None if the flank was not checked.
-    solved : SolvedContacts or None
-        The contacts from which the extremes by thermal EHL are taken; None in closed form.
-    path_length : float
-        Length of the path of contact [m].
+    larger of the two is used. `hottest`: largest flash temperature by Blok over the flank [K]; None if the flank was
+    not checked; `solved`: the contacts from which the extremes by thermal EHL are taken; None in closed form.
     """
     path, face = feature
     if not _any_number(path.blok_flash):
@@ -124,20 +114,9 @@ def thinnest_film(
     """Return the thinnest film and its ratio to the roughness.
 
     If the thermal EHL contact is solved, the ratio is computed with the film by thermal EHL. Otherwise the ratio is
-    computed with the film by Dowson and Higginson.
-
-    Parameters
-    ----------
-    feature : CheckedLine
-        The feature line.
-    thinnest : Peak or None
-        Thinnest film over the flank by Dowson and Higginson [m]; None if the flank was not checked.
-    solved : SolvedContacts or None
-        The contacts from which the extremes by thermal EHL are taken; None in closed form.
-    path_length : float
-        Length of the path of contact [m].
-    given : LoadDistributionInputs
-        The pair with the roughness of its flanks.
+    computed with the film by Dowson and Higginson. `thinnest`: thinnest film over the flank by Dowson and Higginson
+    [m]; None if the flank was not checked; `solved`: the contacts from which the extremes by thermal EHL are taken;
+    None in closed form.
     """
     path, curve = feature.path, feature.path.dowson_higginson
     judged = _least(curve, path.psi, feature.face)
