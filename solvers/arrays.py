@@ -24,30 +24,22 @@ The fraction is far above rounding errors, and far below any measurable effect.
 
 
 def frozen(values: ArrayLike) -> NDArray[Any]:
-    """Return a read-only array of the values.
-
-    If the values are already an array, the result is a view of this array; the elements are not copied.
-    """
+    """Read-only array of the values; a view if they are an array already."""
     array = np.asarray(values).view()
     array.flags.writeable = False
     return array
 
 
 def without_rounding(value: float, scale: float) -> float:
-    """Return the sum `value`, or zero if this sum is only a rounding error.
-
-    `scale` is the sum of the absolute values of the summands. If the absolute value of the sum is below 1e-12 of
-    `scale`, the sum counts as a rounding error.
-    """
+    """The sum `value`, or zero if it is below 1e-12 of `scale`, the sum of the absolute summands."""
     return 0.0 if abs(value) < ROUNDING * abs(scale) else value
 
 
 def records(shape: int | tuple[int, ...], fields: Fields) -> RecordArray:
-    """Return a record array of zeros.
+    """Record array of zeros, as which kernels pass a group of arrays to each other.
 
-    Kernels pass a group of arrays to each other as one record array, because numba counts the references to every array
-    in a call. In a test with a separate array for every field, a run of the pumping model `pocket_chain` took 3.3 times
-    as long, and a run of the gas dynamics took 1.4 times as long.
+    numba counts the references to every array in a call: with separate arrays `pocket_chain` took 3.3 times as long,
+    gas dynamics 1.4 times.
     """
     return np.zeros(shape, fields).view(np.recarray)
 
@@ -59,9 +51,6 @@ def floats(*names: str) -> Fields:
 
 @inner_kernel
 def copy(source: FloatArray, target: FloatArray, count: int) -> None:
-    """Copy the first `count` elements of a vector to another one.
-
-    For an assignment between slices, numba would compile the text of its error, which takes as long as ten kernels.
-    """
+    """Copy the first `count` elements; of a slice assignment numba would compile the error text, like ten kernels."""
     for i in range(count):
         target[i] = source[i]

@@ -29,20 +29,18 @@ def kernel(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def inner_kernel(function: Callable[P, R]) -> Callable[P, R]:
-    """Compile a function that only kernels call, as a part of their machine code.
+    """Compile a function that only kernels call, without what makes it callable from Python.
 
-    What makes a function callable from Python and keeps it on disk would take a third of its compilation. If Python
-    calls an inner kernel nevertheless, Python runs it uncompiled; a test can compile it with `kernel`.
+    That would take a third of its compilation. Python runs it uncompiled; a test can compile it with `kernel`.
     """
     return register_jitable(**OPTIONS)(function)
 
 
 def inlined_kernel(function: Callable[P, R]) -> Callable[P, R]:
-    """Compile an inner kernel whose code is copied into the kernels that call it.
+    """Compile an inner kernel into the kernels that call it.
 
-    If the code were not copied, numba would count the references to every array in a call. A kernel that takes many
-    arrays may be called at every step of a loop, for example at every column of a film. The counting could then take
-    twice as long as the calculation in the kernel.
+    Otherwise numba counts the references to every array in a call, which at every column of a film may take twice as
+    long as the calculation.
     """
     return register_jitable(forceinline=True, **OPTIONS)(function)
 

@@ -27,10 +27,9 @@ def cache_base() -> Path:
 
 
 def package_digest() -> str:
-    """Return the digest of the package `solvers`.
+    """Digest of the package `solvers`.
 
-    The digest takes a second to compute. The digest is therefore kept in a file on disk. The name of this file is a
-    hash of the paths, the modification times and the sizes of all source files.
+    It takes a second, and is kept in a file named by paths, times of modification and sizes of all sources.
     """
     status = [(str(path), (state := path.stat()).st_mtime_ns, state.st_size) for path in _sources(PACKAGE)]
     kept = cache_base() / "digests" / sha256(repr(status).encode()).hexdigest()
@@ -45,13 +44,10 @@ def package_digest() -> str:
 
 
 def digest_of(package: Path) -> str:
-    """Return the SHA-256 hash of all modules and tables in `package`.
+    """SHA-256 of the names, syntax trees and tables of `package`.
 
-    The hash is computed from the names, the syntax trees of the modules, and the contents of the tables. A syntax tree
-    contains no comments and no layout. Docstrings and the labels of quantities (title, symbol and similar text) are
-    removed from the tree. An edit of comments, layout, docstrings or labels therefore does not change the digest. An
-    edit of a constant or of a formula changes the digest. Different versions of Python may give different trees, and
-    therefore different digests.
+    Comments, layout, docstrings and labels of quantities do not count; constants and formulas do. Versions of Python
+    may differ in their trees.
     """
     digest = sha256()
     for path in _sources(package):

@@ -32,10 +32,7 @@ class InvalidInput(SolverError):
 
 
 class NoSolution(SolverError):
-    """Failure of an iteration to converge.
-
-    `residuals` contains the residuals at which the iteration stopped. A key is the name of a residual.
-    """
+    """An iteration without convergence; `residuals`, by name, are those where it stopped."""
 
     def __init__(self, code: str, message: str, residuals: dict[str, float] | None = None) -> None:
         super().__init__(code, message, residuals)

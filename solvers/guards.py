@@ -39,10 +39,9 @@ def guarded(
 
 
 def checked(inputs: T, prefix: str = "") -> T:
-    """Return `inputs` if every number in this dataclass is inside the range that is declared for it.
+    """`inputs`, or InvalidInput `out_of_range` with the first field outside its declared range.
 
-    Otherwise raise `InvalidInput` with the code `out_of_range` and the dotted name of the first wrong field. This check
-    is for inputs that are built in Python; the service checks requests when they arrive.
+    For inputs built in Python; the service checks requests when they arrive.
     """
     kind: Any = type(inputs)
     for name, ends in _ranges(kind):

@@ -25,11 +25,7 @@ logger = logging.getLogger(__name__)
 
 
 def _writable(folder: Path) -> Path | None:
-    """Create the folder if necessary, and delete old folders beside it. Return the path of the folder.
-
-    The `KEPT_FOLDERS` folders that were used last remain. If the folder is not writable, or if the disk is nearly full,
-    log a warning and return None.
-    """
+    """Create the folder and delete all but the `KEPT_FOLDERS` used last; None, and a warning, if it is not writable."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
         os.utime(folder)
@@ -48,7 +44,7 @@ def _writable(folder: Path) -> Path | None:
 
 
 def _own_folder(name: str, existing: Path) -> Path | None:
-    """Return a folder of this user in the folder for temporary files, with the kernels of a folder that is read-only.
+    """Folder of this user for temporary files, with the kernels of a read-only folder.
 
     Kernels are pickled objects, so a folder of another user is never used.
     """

@@ -123,10 +123,7 @@ class Lubricant:
         )
 
     def viscosity_at(self, pressure: float, temperature: float) -> float:
-        """Return the viscosity [Pa s] at pressure [Pa] and temperature [K].
-
-        Raises InvalidInput: `viscosity_range` if the viscosity at this temperature and zero pressure exceeds 10^4 Pa s.
-        """
+        """Viscosity [Pa s] at pressure [Pa] and temperature [K]; InvalidInput `viscosity_range` above 10^4 Pa s."""
         laws = self.laws
         logarithm = float(log_viscosity(laws, pressure_part(laws, 0.0)[0], temperature)[0])
         if not logarithm < log(HIGHEST_VISCOSITY):
@@ -184,11 +181,9 @@ class FluidLaws(NamedTuple):
 
 @kernel
 def pressure_part(laws: FluidLaws, pressure: float) -> tuple[float, float]:
-    """Compute the pressure term in the logarithm of the viscosity, and the derivative of this term (Eq. 20).
+    """Pressure term of ln eta and its derivative; a negative pressure (in iterations) counts as zero (Eq. 20).
 
-    With the law of Roelands, the term is A1 (1 + 5.1e-9 p)^Z, where Z = alpha/(5.1e-9 A1) and A1 = ln eta_0 + 9.67.
-    With the law of Barus, the term is alpha p. `pressure`: pressure p [Pa]; a negative pressure, which occurs only
-    during an iteration, counts as zero.
+    Roelands: A1 (1 + 5.1e-9 p)^Z, Z = alpha/(5.1e-9 A1), A1 = ln eta_0 + 9.67. Barus: alpha p.
     """
     p = max(pressure, 0.0)
     if laws.roelands == 1:
@@ -205,12 +200,11 @@ def pressure_part(laws: FluidLaws, pressure: float) -> tuple[float, float]:
 
 @kernel
 def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> tuple[float, float, float]:
-    """Compute the logarithm of the viscosity, and the derivatives of this logarithm (Eq. 20).
+    """Logarithm of the viscosity and its derivatives (Eq. 20).
 
-    With the law of Roelands, ln eta = ln eta_0 + A1 {-1 + (1 + 5.1e-9 p)^Z [(t - 138)/(t_0 - 138)]^-S0}, where S0 =
-    beta (t_0 - 138)/A1. The paper prints S0 = beta/(A1 (t_0 - 138)), which has the wrong unit and would make the
-    viscosity almost independent of temperature; only the form used here gives -d ln eta/dt = beta at t_0. With the laws
-    of Barus and Reynolds, ln eta = ln eta_0 + alpha p - beta (t - t_0).
+    Roelands: ln eta = ln eta_0 + A1 {-1 + (1 + 5.1e-9 p)^Z [(t - 138)/(t_0 - 138)]^-S0}, S0 = beta (t_0 - 138)/A1. The
+    paper prints S0 = beta/(A1 (t_0 - 138)), of the wrong unit; only this form gives -d ln eta/dt = beta at t_0. Barus
+    and Reynolds: ln eta = ln eta_0 + alpha p - beta (t - t_0).
     """
     if laws.roelands == 1:
         above_pole = temperature - ROELANDS_POLE_TEMPERATURE
@@ -225,10 +219,9 @@ def log_viscosity(laws: FluidLaws, pressure_term: float, temperature: float) -> 
 
 @kernel
 def density(laws: FluidLaws, pressure: float, temperature: float) -> tuple[float, float, float]:
-    """Compute the density of the oil, and the derivatives of the density, with the formula of Dowson and Higginson.
+    """Density by Dowson and Higginson and its derivatives by pressure and temperature (Eq. 19).
 
-    Eq. 19. `pressure`: pressure p [Pa]; a negative pressure counts as zero. Returns density [kg/m^3], its derivative by
-    pressure [kg/(m^3 Pa)] and its derivative by temperature [kg/(m^3 K)].
+    In kg/m^3, Pa and K; a negative pressure counts as zero.
     """
     p = max(pressure, 0.0)
     base = 1.0 + 1.7e-9 * p

@@ -50,11 +50,9 @@ same Y, the oil with the viscosity L at 40 C has the index 0, and the oil with t
 
 
 def viscosity_index(viscosity_40: float, viscosity_100: float) -> float:
-    """Compute the viscosity index of an oil [-].
+    """Viscosity index 100 (L - U)/(L - H); above 100, 100 + (10^N - 1)/0.00715 with N = log(H/U)/log Y [-] (Eq. R2).
 
-    Eq. R2: the index is 100 (L - U)/(L - H) if this value is at most 100. Otherwise the index is 100 + (10^N -
-    1)/0.00715 with N = log(H/U)/log Y. L and H follow from Y (see `REFERENCE_OILS`). If Y is below 2 mm^2/s, the
-    standard defines no index. The first formula is then used with the first row of `REFERENCE_OILS`.
+    L and H follow from Y (`REFERENCE_OILS`); below 2 mm^2/s, where the standard has none, from the first row.
     """
     u, y = viscosity_40 / SQUARE_MILLIMETRE, viscosity_100 / SQUARE_MILLIMETRE
     _, low, high = max((row for row in REFERENCE_OILS if row[0] <= y), default=REFERENCE_OILS[0])
@@ -65,10 +63,7 @@ def viscosity_index(viscosity_40: float, viscosity_100: float) -> float:
 
 
 def viscosity_of_index(viscosity_40: float, index: float) -> float:
-    """Find the kinematic viscosity at 100 C of an oil with a given viscosity index [m^2/s] (Eq. R2).
-
-    Raises InvalidInput: `viscosity_index` if no viscosity of at least 2 mm^2/s at 100 C leads to this index.
-    """
+    """Kinematic viscosity at 100 C of an oil of this index [m^2/s], else InvalidInput `viscosity_index` (Eq. R2)."""
     thick = viscosity_40 / SQUARE_MILLIMETRE
 
     def excess(thin: float) -> float:
@@ -115,12 +110,7 @@ The viscosity index of these oils is 94 to 102.
 
 @dataclass(frozen=True, slots=True)
 class KindOfOil:
-    """Typical properties of a kind of oil; a data sheet rarely states these properties.
-
-    Gold's law of the pressure-viscosity coefficient is alpha = s nu^t, where nu is the kinematic viscosity.
-    `pressure_viscosity_scale` is s [1/GPa at 1 mm^2/s], and `pressure_viscosity_exponent` is t. The other fields are in
-    SI units.
-    """
+    """Typical properties of a kind of oil, in SI units; Gold's law alpha = s nu^t has s in 1/GPa at 1 mm^2/s."""
 
     pressure_viscosity_scale: float
     pressure_viscosity_exponent: float
@@ -206,12 +196,7 @@ class OilSheet:
     compressible: bool = described("Whether the density depends on pressure and temperature.", default=True)
 
     def __post_init__(self) -> None:
-        """Refuse viscosities that no oil has.
-
-        Raises InvalidInput: `out_of_range` if the viscosity at 100 C is below 1 mm^2/s; `viscosity_order` if the
-        viscosity at 100 C is not lower than the viscosity at 40 C; `viscosity_index` if no oil has the viscosity index
-        that follows from both viscosities.
-        """
+        """Refuse viscosities that no oil has (`out_of_range`, `viscosity_order`, `viscosity_index`)."""
         thick, thin, field = self.kinematic_viscosity_40, self.kinematic_viscosity_100, _THIN
         if not thin >= LEAST_VISCOSITY_100:
             raise InvalidInput("out_of_range", "the viscosity of the oil at 100 °C must be at least 1 mm²/s", field)
@@ -229,10 +214,7 @@ class OilSheet:
             raise InvalidInput("viscosity_index", message, field)
 
     def kinematic_viscosity(self, temperature: float) -> float:
-        """Compute the kinematic viscosity with the Walther law through both given viscosities (ASTM D341) [m^2/s].
-
-        Eq. R1. Raises InvalidInput: `oil_too_thick` if the viscosity exceeds 10^5 mm^2/s.
-        """
+        """Kinematic viscosity by the Walther law (ASTM D341) [m^2/s]; `oil_too_thick` above 10^5 mm^2/s (Eq. R1)."""
         logarithm = self._logarithm(temperature)
         if logarithm > log10(LARGEST_VISCOSITY / SQUARE_MILLIMETRE):
             message = (
@@ -254,18 +236,15 @@ class OilSheet:
         return viscosity_index(self.kinematic_viscosity_40, self.kinematic_viscosity_100)
 
     def density(self, temperature: float) -> float:
-        """Compute the density at a temperature [kg/m^3]. Eq. R3: rho = rho_15 [1 - 0.00065 (t - 15 C)]."""
+        """Density rho_15 [1 - 0.00065 (t - 15 C)] [kg/m^3] (Eq. R3)."""
         return self.reference_density * (1.0 - THERMAL_EXPANSION * (temperature - DENSITY_TEMPERATURE))
 
     def viscosity(self, temperature: float) -> float:
-        """Compute the dynamic viscosity at a temperature [Pa s]. Eq. R3: eta = nu rho."""
+        """Dynamic viscosity nu rho [Pa s] (Eq. R3)."""
         return self.kinematic_viscosity(temperature) * self.density(temperature)
 
     def temperature_coefficient(self, temperature: float) -> float:
-        """Compute the temperature-viscosity coefficient, or return the coefficient in the data sheet if there is one.
-
-        Eq. R4: beta = -d ln eta/dt, where eta is the density times the kinematic viscosity by the Walther law.
-        """
+        """Temperature-viscosity coefficient of the data sheet, else beta = -d ln eta/dt [1/K] (Eq. R4)."""
         if self.temperature_viscosity is not None:
             return self.temperature_viscosity
         viscosity = self.kinematic_viscosity(temperature) / SQUARE_MILLIMETRE
@@ -275,10 +254,9 @@ class OilSheet:
         return float(thinning + expansion)
 
     def pressure_coefficient(self, temperature: float) -> float:
-        """Compute Gold's pressure-viscosity coefficient, or use the coefficient in the data sheet if there is one.
+        """Pressure-viscosity coefficient of the data sheet (at 38 C, converted by Eq.
 
-        Eq. R4: alpha = s nu^t in 1/GPa, with the kinematic viscosity nu in mm^2/s. `KindOfOil` states s and t. A
-        coefficient at 38 C is converted by Eq. M3.
+        M3), else Gold's [1/Pa] (Eq. R4).
         """
         if self.pressure_viscosity is not None:
             return self.pressure_viscosity
@@ -308,10 +286,7 @@ class OilSheet:
         )
 
     def walther(self) -> tuple[float, float]:
-        """Return the constants A and B of the Walther law log10 log10 (nu + 0.7) = A - B log10 T.
-
-        Here nu is in mm^2/s, and T is in kelvin. A and B follow from the viscosities at 40 C and at 100 C.
-        """
+        """Constants A and B of log10 log10 (nu + 0.7) = A - B log10 T, with nu in mm^2/s and T in kelvin."""
         cold, hot = 40.0 + CELSIUS, 100.0 + CELSIUS
         thick = _double_logarithm(self.kinematic_viscosity_40)
         thin = _double_logarithm(self.kinematic_viscosity_100)
@@ -361,21 +336,16 @@ def sheet_of_index(
     kind: OilKind = "mineral",
     density_15: float | None = None,
 ) -> OilSheet:
-    """Return an oil with a given viscosity at 40 C and a given viscosity index.
+    """Oil of a viscosity at 40 C and a viscosity index; index and density of the kind if None.
 
-    `viscosity_index`: viscosity index; if None, a value typical of the kind is used [-]; `density_15`: density at 15 C;
-    if None, a value typical of the kind is used [kg/m^3]. Raises InvalidInput: `viscosity_index` if no oil of this
-    viscosity has this index.
+    Raises InvalidInput: `viscosity_index` if no oil of this viscosity has this index.
     """
     index = TYPICAL_INDEX[kind] if viscosity_index is None else viscosity_index
     return OilSheet(viscosity_40, viscosity_of_index(viscosity_40, index), kind, density_15)
 
 
 def lubricant_at(oil: Lubricant | OilSheet, temperature: float) -> Lubricant:
-    """Return the oil as the lubricant of a contact; `temperature` [K] is the oil temperature at the inlet.
-
-    A `Lubricant` is returned unchanged.
-    """
+    """The oil as the lubricant of a contact with this inlet temperature [K]; a `Lubricant` stays as it is."""
     return oil.lubricant(temperature) if isinstance(oil, OilSheet) else oil
 
 

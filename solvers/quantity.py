@@ -25,11 +25,7 @@ _LEFT_OUT_OF_TYPES = re.compile(r"\b(?:[a-z_]\w*\.)+|(?<=ndarray)\[.*?\]\]|^'|'$
 
 
 class Unit(NamedTuple):
-    """A unit in which a quantity is shown.
-
-    `symbol` is the symbol of this unit. The value in SI units is `scale` × shown value + `offset`. `si` is the symbol
-    of the SI unit. If the quantity is shown in SI units, `si` is None.
-    """
+    """A unit in which a quantity is shown: SI value = `scale` × shown + `offset`; `si` is None if both are one."""
 
     symbol: str
     scale: float
@@ -96,51 +92,26 @@ UNITS = {
 class Quantity:
     """The declaration of one field.
 
-    Parameters
-    ----------
-    title : str
-        Label that can be understood without further text.
-    symbol, source : str, optional
-        Symbol of the quantity, and the literature that uses this symbol.
-    text : str, optional
-        Description, if the title is not enough.
-    unit : str, optional
-        Key of `UNITS`; None if the quantity has no unit.
-    ge, gt, le, lt : float, optional
-        Range of an input.
-    default : Any
-        Default of an input or of an option; `...` if there is none.
-    default_text : str, optional
-        Words that describe the default if the default is None.
-    assumed : str, optional
-        Reason for the default, if the default is our own choice and not from the paper. A result that depends on this
-        default lists the reason.
-    advanced : bool
-        Whether the field is an option of the model or of the resolution.
-    folded : bool
-        Whether a form shows the input only on demand, because few users know the input.
-    tolerance, relative_tolerance : float, optional
-        Usual uncertainty from manufacture or measurement: `tolerance` is in the shown unit, `relative_tolerance` is a
-        share of the value. The larger of the two is used. Every input that may be zero has a `tolerance`, so that a
-        sensitivity analysis can vary the input.
-    if_above, if_negative : str, optional
-        Advice on what to enter instead. `if_above` is shown if the entry is not a number or is above the range,
-        `if_negative` is shown if the entry is negative.
-    length : tuple of (int, int), optional
-        Least and largest number of values in a list.
-    detail : str
-        Lowest level of detail at which a result contains the field.
-    axis : str or tuple of (str, str), optional
-        Name of the field that is the abscissa of a curve, or names of both fields that are the axes of a map. A dotted
-        name is a path that starts at the whole result.
-    index : str, optional
-        For a list, the meaning of the positions in the list (for example "X, Y"), if no other field states this
-        meaning.
-    gaps : bool
-        Whether NaN in an array marks a point without a value.
-    equation : str, optional
-        Place in the manual that says how the value is computed: the number of an equation, such as "D15", or a
-        section of a chapter, such as "drive-train#shafts". By default, that of the dataclass.
+    title                     label that needs no further text
+    symbol, source            symbol, and the literature that uses it
+    text                      description, if the title is not enough
+    unit                      key of `UNITS`; None without a unit
+    ge, gt, le, lt            range of an input, in the shown unit
+    default                   of an input or option; `...` if there is none
+    default_text              what a default None means, in words
+    assumed                   reason for a default of our own; results that depend on it list the reason
+    advanced                  whether it is an option of model or resolution
+    folded                    whether a form shows it only on demand, because few users know it
+    tolerance,                usual uncertainty in the shown unit, or as a share of the value; the larger counts. What
+      relative_tolerance      may be zero needs a `tolerance`, so that a sensitivity analysis can vary it
+    if_above, if_negative     advice on what to enter instead
+    length                    least and largest number of values of a list
+    detail                    lowest level of detail at which a result has the field
+    axis                      field that is the abscissa of a curve, or both of a map; dotted from the whole result
+    index                     meaning of the positions of a list ("X, Y"), if no other field states it
+    gaps                      whether NaN in an array marks a point without a value
+    equation                  place in the manual that says how it is computed: "D15", or "drive-train#shafts"; by
+                              default that of the dataclass
     """
 
     title: str
@@ -230,9 +201,8 @@ def record(
 def record(cls: Any = None, /, *, kw_only: bool = False, slots: bool = True, equation: str | None = None) -> Any:
     """Make a frozen dataclass whose fields may be declared by `quantity`.
 
-    The `repr` of the dataclass shows the values with their units. The docstring of the dataclass gets numpydoc's
-    sections on the fields. A dataclass that uses `cached_property` must have `slots=False`. `equation` is the place in
-    the manual of all quantities that name none.
+    Its `repr` shows units, its docstring gets numpydoc's sections on the fields. With `cached_property` it needs
+    `slots=False`. `equation` is the place in the manual of all quantities that name none.
     """
 
     def make(kind: Any) -> Any:
@@ -288,10 +258,7 @@ def allowed(declared: Quantity) -> str:
 
 
 def advice(declared: Quantity, value: Any) -> str:
-    """Return the advice on what to enter instead of a value that is not a number or is outside the range.
-
-    `value` is in the shown unit. The result is empty if there is no such advice.
-    """
+    """Advice on what to enter instead of a value (in the shown unit) out of range or not a number; may be empty."""
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
     if is_number and value < 0:
         text = declared.if_negative
@@ -309,26 +276,10 @@ def converted(
     inside: Callable[[Any], Any] | None = None,
     listed: Callable[[Iterable[Any]], Any] = tuple,
 ) -> Any:
-    """Apply a conversion to every number in a value.
+    """Apply a conversion to every number in a value: the one way between SI and shown units.
 
-    All conversions between SI and shown units use this function.
-
-    Parameters
-    ----------
-    value : Any
-        A number, an array, a dataclass, a section of a request, or a (nested) list of such values. None, booleans and
-        text are returned unchanged.
-    number : callable
-        Function that converts a number or an array.
-    inside : callable, optional
-        Function that converts a value with fields of its own; if None, such a value is returned unchanged.
-    listed : callable
-        Function that makes a list (or tuple) of the converted items.
-
-    Returns
-    -------
-    Any
-        The converted value.
+    `number` converts a number or an array, `inside` a value with fields of its own (None: unchanged), `listed` makes a
+    list. None, booleans and text stay as they are.
     """
     if value is None or isinstance(value, bool | str):
         return value
@@ -340,10 +291,7 @@ def converted(
 
 
 def as_json(value: Any) -> Any:
-    """Return an array as nested lists; return any other value unchanged.
-
-    In the lists, None replaces NaN, which marks a point without a value.
-    """
+    """An array as nested lists with None for NaN; anything else unchanged."""
     if not isinstance(value, np.ndarray):
         return value
     if value.dtype.kind == "f" and np.isnan(value).any():
@@ -353,19 +301,15 @@ def as_json(value: Any) -> Any:
 
 
 def to_dict(data: Any) -> dict[str, Any]:
-    """Return the declared values of a dataclass in the shown units, named as in the API (`module_mm` for `module`).
+    """Declared values of a dataclass in shown units, named as in the API (`module_mm` for `module`).
 
-    Arrays become lists, and inner dataclasses become dictionaries. NaN, which marks a point without a value, becomes
-    None.
+    Arrays become lists, inner dataclasses dictionaries, NaN None.
     """
     return _named(data, None)
 
 
 def _named(data: Any, outer: Quantity | None) -> dict[str, Any]:
-    """Return the declared values of `data` under their names in the API.
-
-    `outer` is the declaration of the field that contains `data`. A value that declares no unit has the unit of `outer`.
-    """
+    """Declared values of `data` under their API names; a value without unit has that of `outer`, its field."""
     kind: Any = type(data)
     named = {}
     for name, declared in quantities(kind).items():
@@ -382,10 +326,7 @@ def _shown(declared: Quantity, value: Any) -> Any:
 
 
 class _Docstring:
-    """Docstring of a dataclass.
-
-    The sections on the fields are added only when the docstring is read, because adding them at import would cost time.
-    """
+    """Docstring of a dataclass; sections on the fields are added when it is read, because at import they cost time."""
 
     def __init__(self, text: str) -> None:
         self.text = text
@@ -407,10 +348,7 @@ class _Docstring:
 
 
 def _entry(kind: Any, name: str, declared: Quantity | None) -> str:
-    """Return numpydoc's entry on one field.
-
-    The entry states the type, the description with the SI unit, and then symbol, source, range and default.
-    """
+    """Entry of numpydoc on one field: type, description with the SI unit, symbol, source, range and default."""
     item = kind.__dataclass_fields__.get(name)
     annotation = item.type if item else _function_of(getattr(kind, name)).__annotations__["return"]
     head = f"{name} : {_LEFT_OUT_OF_TYPES.sub('', formatannotation(annotation))}"

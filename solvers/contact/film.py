@@ -13,24 +13,20 @@ Regime = Literal["boundary", "mixed", "full_film"]
 def dowson_higginson_minimum(
     *, viscosity: float, pressure_viscosity: float, mean_speed: Real, radius: Real, line_load: Real, modulus: float
 ) -> Real:
-    """Compute the minimum film thickness of a line contact by the formula of Dowson and Higginson (1966) [m].
-
-    Eq. 27: h = 2.65 alpha^0.54 (eta_0 u)^0.7 R^0.43/(E'^0.03 w^0.13). `line_load`: line load w, positive [N/m].
-    """
+    """Minimum film 2.65 alpha^0.54 (eta_0 u)^0.7 R^0.43/(E'^0.03 w^0.13) (Dowson and Higginson) [m] (Eq. 27)."""
     entrainment = (viscosity * mean_speed) ** 0.7 * radius**0.43
     return cast("Real", 2.65 * pressure_viscosity**0.54 * entrainment / (modulus**0.03 * line_load**0.13))
 
 
 def thickness_ratio(film: Real, roughness_1: float, roughness_2: float) -> Real:
-    """Compute the ratio of film thickness to roughness [-]. Eq. 28: chi = h/sqrt(Ra_1^2 + Ra_2^2)."""
+    """Film thickness over roughness, chi = h/sqrt(Ra_1^2 + Ra_2^2) [-] (Eq. 28)."""
     return film / hypot(roughness_1, roughness_2)
 
 
 def thickness_regime(ratio: float, boundary_below: float = 1.0, full_film_above: float = 4.0) -> Regime:
-    """Return the regime of lubrication for a given ratio of film thickness to roughness.
+    """Regime of lubrication by the ratio of film to roughness; scuffing is probable under boundary lubrication.
 
-    The default limits are those of Xue, Zhang and Wang 2020, where full-film lubrication begins above a ratio of 4. In
-    many other texts, full-film lubrication begins above a ratio of 3. Scuffing is probable under boundary lubrication.
+    Limits of Xue, Zhang and Wang 2020; many other texts begin the full film at 3.
     """
     if ratio < boundary_below:
         return "boundary"

@@ -16,21 +16,15 @@ def plane_strain_compliance(solid: Solid) -> float:
 
 
 def reduced_modulus(solid_1: Solid, solid_2: Solid) -> float:
-    """Compute the reduced modulus of two solids [Pa].
-
-    Eq. E1: E' = 2/[(1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2]. The film formulas use the same definition of E'.
-    """
+    """Reduced modulus E' = 2/[(1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2] [Pa] (Eq. E1)."""
     return 2.0 / (plane_strain_compliance(solid_1) + plane_strain_compliance(solid_2))
 
 
 def half_width(line_load: Real, radius: Real, modulus: float) -> Real:
-    """Compute the half width of a Hertzian line contact [m]. Eqs. L14, E1: b = sqrt(8 w R/(pi E'))."""
+    """Half width b = sqrt(8 w R/(pi E')) of a Hertzian line contact [m] (Eqs. L14, E1)."""
     return cast("Real", np.sqrt(8.0 * line_load * radius / (np.pi * modulus)))
 
 
 def maximum_pressure(line_load: Real, radius: Real, modulus: float) -> Real:
-    """Compute the largest pressure of a Hertzian line contact [Pa].
-
-    Eq. E1: p_H = sqrt(w E'/(2 pi R)). The mean pressure is (pi/4) p_H.
-    """
+    """Largest pressure p_H = sqrt(w E'/(2 pi R)) of a Hertzian line contact [Pa]; the mean is (pi/4) p_H (Eq. E1)."""
     return cast("Real", np.sqrt(line_load * modulus / (2.0 * np.pi * radius)))

@@ -49,10 +49,7 @@ class RecommendedPoint:
 
 @record
 class CrowningScan:
-    """Curves over the crowning ratio: smallest load capacity coefficient and largest overlap in the misalignment range.
-
-    Each array has one value per crowning ratio for which the contact can be computed.
-    """
+    """Smallest load capacity and largest overlap over the range, per crowning ratio with a computable contact."""
 
     crowning_ratio: FloatArray = quantity("crowning ratio scanned", "ε")
     min_load_capacity_coefficient: FloatArray = quantity(
@@ -110,12 +107,9 @@ _REASONS = {
 
 @dataclass(frozen=True, slots=True)
 class CrowningState:
-    """Constraints and load capacity of one crowning ratio over the whole range of misalignment.
+    """Constraints and load capacity of one crowning ratio, each at the worse end of the range of misalignment.
 
-    Each value belongs to the end of the range at which this value is worse. `overlap` must be below 1. `edge`,
-    `pressure` and `width` must not exceed 1. `edge` is the largest distance of the contact from the middle of the face,
-    divided by half the face width. `pressure` and `width` are the pressure and the width of the contact, divided by
-    their limits.
+    `overlap` must be below 1; `edge` (travel over half the face), `pressure` and `width` (over their limits) at most 1.
     """
 
     overlap: float
@@ -198,11 +192,7 @@ def crowning_window(state: Callable[[float], CrowningState]) -> tuple[float, flo
 
 
 def _root(state: Callable[[float], CrowningState], constraint: str) -> float:
-    """Find the crowning ratio at which the value of a constraint is 1.
-
-    If the value is not 1 anywhere between `MIN_CROWNING_RATIO` and `MAX_CROWNING_RATIO`, return the end of this range
-    at which the value is nearer to 1.
-    """
+    """Crowning ratio at which a constraint is 1, or the nearer end of the permissible range."""
 
     def excess(logarithm: float) -> float:
         return log(getattr(state(exp(logarithm)), constraint))
@@ -271,10 +261,7 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
 
 
 def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float) -> float:
-    """Find the crowning ratio with the largest load capacity between `low` and `high`.
-
-    First compare several ratios of this range. Then search between the two neighbours of the best of these ratios.
-    """
+    """Crowning ratio between `low` and `high` with the largest load capacity: the best of a scan, then refined."""
     grid = np.geomspace(low, high, _WINDOW_POINTS)
     capacity = [state(float(ratio)).load_capacity_coefficient for ratio in grid]
     best = int(np.argmax(capacity))
@@ -288,10 +275,7 @@ def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float
 
 
 def _merged(notices: tuple[Notice, ...]) -> tuple[Notice, ...]:
-    """Return the first notice of each code.
-
-    If a notice names the field `misalignment`, the returned notice names the field `misalignment_range` instead.
-    """
+    """First notice of each code; a notice about `misalignment` is one about `misalignment_range` here."""
     first: dict[str, Notice] = {}
     for notice in notices:
         first.setdefault(notice.code, notice)

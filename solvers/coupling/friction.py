@@ -79,10 +79,7 @@ class LoadedMesh:
 
 
 def loaded_mesh(inputs: CouplingInputs, mesh: MeshMotion) -> LoadedMesh:
-    """Compute the tooth sums of a mesh.
-
-    The sums are means over one tooth pitch or, if there are pitch deviations, over one revolution.
-    """
+    """Tooth sums of a mesh, means over a tooth pitch or, with pitch deviations, over a revolution."""
     samples = rotor_samples(inputs.coupling, mesh, inputs.operation.axial_velocity)
     floating = inputs.model.sleeve == "floating"
     loads = mesh_loads(inputs.coupling, mesh, samples.teeth, inputs.operation.torque, floating=floating)
@@ -98,14 +95,11 @@ def loaded_mesh(inputs: CouplingInputs, mesh: MeshMotion) -> LoadedMesh:
 
 
 def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> tuple[float, float]:
-    """Compute the axial thrust of one mesh, and the slack of this thrust.
+    """Axial thrust F_ax = sum mu F_n sgn(v_r) of one mesh and its slack [N], means over the rotor angles (Eq. C19).
 
-    Eq. C19, the paper's general expression. Thrust and slack are averaged over the rotor angles. A tooth without
-    relative velocity may carry any friction between -mu F_n and mu F_n. The thrust counts this friction as zero, and
-    the slack counts it as mu F_n. Without axial velocity the thrust is zero, because half a turn later every tooth has
-    the same load and slides in the opposite direction. Returns `thrust`: axial thrust F_ax = sum mu F_n sgn(v_r) [N];
-    `slack`: largest friction of the teeth without relative velocity [N]; the thrust may deviate by this force to either
-    side.
+    A tooth without relative velocity may carry any friction from -mu F_n to mu F_n: zero in the thrust, mu F_n in the
+    slack. Without axial velocity the thrust is zero, because half a turn later every tooth has the same load and slides
+    the other way.
     """
     scale, sums = friction / cos(loaded.motion.pressure_angle), loaded.sums
     force = without_rounding(sums.axial, sums.load) if axial_velocity != 0.0 else 0.0
@@ -113,11 +107,9 @@ def mesh_thrust(loaded: LoadedMesh, friction: float, axial_velocity: float) -> t
 
 
 def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocity: float) -> float:
-    """Compute the axial thrust of many teeth with equal loads (Eq. C21).
+    """Axial thrust F_max (2/pi) asin(v_ax/v_Gmax) of many equally loaded teeth [N], at most F_max (Eq. C21).
 
-    For a centred sleeve without pitch deviations this thrust is an upper bound, because the actual load is concentrated
-    on the teeth that slide fastest. Returns thrust F_max (2/pi) asin(v_ax/v_Gmax) [N]; the thrust is F_max if v_ax
-    exceeds v_Gmax.
+    An upper bound for a centred sleeve without pitch deviations: load concentrates on the teeth that slide fastest.
     """
     if axial_velocity == 0.0:
         return 0.0
@@ -127,20 +119,15 @@ def uniform_load_thrust(limit: float, axial_velocity: float, max_sliding_velocit
 
 
 def customary_thrust(operation: Operation) -> float | None:
-    """Return the customary thrust 0.25 T/D [N], where D is the shaft diameter; return None if no diameter is given.
-
-    This rule is common practice in designs after API 617 and API 671. The rule is quoted from a secondary source.
-    """
+    """Customary thrust 0.25 T/D [N] of API 617 and 671 (second-hand); None without a shaft diameter D."""
     return None if operation.shaft_diameter is None else 0.25 * operation.torque / operation.shaft_diameter
 
 
 def simple_self_induced_thrust(coupling: Coupling, torque: float, friction: float, factor: float) -> float:
-    """Compute the self-induced thrust with a parallel offset and one pair of opposite teeth per mesh [N].
+    """Self-induced thrust with a parallel offset and one pair of opposite teeth per mesh [N] (Fig. 13; Eq. C23).
 
-    Fig. 13; Eq. C23. Each of the two teeth of a mesh carries T/(d_o cos alpha). The moment of friction is M_2 = 2 F_R
-    d_o, where F_R is the friction of one tooth. This moment would overturn the sleeve. The lateral force F_1 = M_2/l_H
-    at each mesh prevents this. Because of the lateral force, the normal forces of the two teeth of a mesh differ by
-    kappa F_1. The paper does not state kappa.
+    The friction moment M_2 = 2 F_R d_o of two teeth with T/(d_o cos alpha) each needs a lateral force M_2/l_H at each
+    mesh, which makes the normal forces of the two teeth differ by kappa times it. The paper does not state kappa.
     """
     return 2.0 * factor * friction**2 * torque / (coupling.hub_distance * cos(coupling.pressure_angle))
 
@@ -155,11 +142,7 @@ def uniform_self_induced_thrust(coupling: Coupling, torque: float, friction: flo
 
 
 def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float) -> AxialThrust:
-    """Compute the axial thrust with its lower and upper bounds, and other thrusts for comparison.
-
-    The axial thrust is that of one mesh, or that of two meshes on one sleeve. The thrusts for comparison are the thrust
-    of sliding coaxial shafts, the breakaway thrust, the customary thrust, and the thrusts by closed forms.
-    """
+    """Axial thrust of one mesh, or of two on one sleeve, with its bounds and the thrusts for comparison."""
     coupling, operation = inputs.coupling, inputs.operation
     limit = coaxial_limit(coupling, operation.torque, friction)
     force, slack = mesh_thrust(loaded, friction, operation.axial_velocity)
@@ -186,12 +169,10 @@ def axial_thrust(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh,
 
 
 def self_induced_thrust(inputs: CouplingInputs, geometry: Geometry, friction: float) -> SelfInducedThrust:
-    """Compute the thrust of two meshes without axial velocity, and the closed forms of this thrust.
+    """Thrust of two meshes without axial velocity, with its closed forms for one pair of teeth and for equal loads.
 
-    One closed form assumes that only one pair of opposite teeth per mesh carries load. The other closed form assumes
-    equal loads on all teeth. In the angular arrangement both closed forms are zero: the moments of friction in the two
-    meshes are opposite, so that the sleeve requires no lateral force at the teeth. The paper says only that the
-    thrust is zero "for reasons of symmetry".
+    With an angle (M) both closed forms are zero: the moments of friction of the meshes are opposite, so that the sleeve
+    needs no lateral force. The paper says "for reasons of symmetry".
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     equilibrium = sleeve_equilibrium(inputs, geometry, friction, 0.0)
@@ -207,14 +188,11 @@ def self_induced_thrust(inputs: CouplingInputs, geometry: Geometry, friction: fl
 
 
 def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, friction: float) -> Losses:
-    """Compute the friction power of a mesh and the moments on the driving hub (Eqs. C25, C28).
+    """Friction power of a mesh and moments on the driving hub (Eqs. C25, C28).
 
-    The relative velocity v_r is the sum of the axial velocity v_ax and the sliding velocity v_G due to the tilt. The
-    moment of friction M_f acts about the pivot direction, against the tilting motion. This moment is M_f = r_o sum mu
-    F_n sgn(v_r) sgn(v_G1) sin phi, where phi is the tooth angle and v_G1 is v_G at phi = 90 degrees. Hence the friction
-    power is P = M_f omega delta + F_ax v_ax. M_f is zero without a tilt. M_f is undetermined if nothing slides at all.
-    The power balance shows that the difference M_f - T delta/2 bends the driving hub. This holds for every load
-    distribution.
+    M_f = r_o sum mu F_n sgn(v_r) sgn(v_G1) sin phi acts about the pivot direction against the tilting; P = M_f omega
+    delta + F_ax v_ax. M_f is zero without a tilt, and undetermined if nothing slides. By the power balance M_f - T
+    delta/2 bends the driving hub, whatever the load distribution.
     """
     operation, sums = inputs.operation, loaded.sums
     scale = friction / cos(inputs.coupling.pressure_angle)
@@ -236,23 +214,16 @@ def losses(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh, frict
 
 
 def equal_loads_friction_moment(coaxial_limit: float, pitch_radius: float) -> float:
-    """Compute the moment with which friction resists a tilt if all tooth loads are equal [N m] (Eq. C26).
-
-    Returns moment (2/pi) mu T/cos(alpha) [N m].
-    """
+    """Moment (2/pi) mu T/cos(alpha) with which friction resists a tilt if all tooth loads are equal [N m] (Eq. C26)."""
     return 2.0 / pi * pitch_radius * coaxial_limit
 
 
 def contact_shift_moment(inputs: CouplingInputs, geometry: Geometry, loaded: LoadedMesh) -> float:
-    """Compute the moment of the tooth forces about the tilt axis [N m] (Eq. C27).
+    """Moment M_s of the tooth forces about the tilt axis, which do not act at the middle of the face [N m] (Eq. C27).
 
-    This moment arises because the tooth forces do not act at the middle of the face. Here z_c is the axial position of
-    the contact, and n_x is the x component of the flank normal n. With both kinematics the moment M_s equals sum F_t
-    df_t/d delta. With `tangential` kinematics, z_c is the contact position s_1 on the hub flank, and n_x contains only
-    the tangential part of n. If all tooth loads are equal, the moment M_s is then R_t delta T/(2 r_o). With `spatial`
-    kinematics, z_c is the contact position in the frame of the sleeve, which is s_1 - delta r_o cos phi. The component
-    n_x then contains the tangential and the radial part of n. The y components of n cause a further moment T delta/2
-    about the pivot direction. The power balance of the hub already contains this further moment.
+    It equals sum F_t df_t/d delta. `tangential`: z_c is the contact position s_1 on the hub flank, n_x the tangential
+    part of n. `spatial`: z_c = s_1 - delta r_o cos phi, and n_x has the radial part too. The power balance of the hub
+    already contains the moment T delta/2 of the y components.
     """
     motion, sums = loaded.motion, loaded.sums
     arm_sin, arm_cos, normal_sin, normal_cos = motion.travel_sin, 0.0, -motion.side, 0.0

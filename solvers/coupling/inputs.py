@@ -453,10 +453,7 @@ class RecommendationInputs:
 
 
 def check_inputs(inputs: CouplingInputs) -> None:
-    """Raise InvalidInput if the model cannot be computed with these inputs.
-
-    The codes are `out_of_range`, `pitch_errors_length`, `mixed_law` and `mixed_curve`.
-    """
+    """Raise InvalidInput (`out_of_range`, `pitch_errors_length`, `mixed_law`, `mixed_curve`)."""
     if not abs(inputs.operation.misalignment) <= MAX_MISALIGNMENT:
         raise InvalidInput(
             "out_of_range",

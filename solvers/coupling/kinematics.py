@@ -31,13 +31,11 @@ def pitch_radius(coupling: Coupling) -> float:
 
 
 def tooth_geometry(coupling: Coupling) -> Geometry:
-    """Compute the pitch, crowning and flank radii [m] (Eq. C1).
+    """Pitch, crowning and flank radii [m] (Eq. C1).
 
-    The centre of the cutter moves on a circle with the crowning radius r_b. At the axial distance zeta from the middle
-    of the face, the cutter is therefore fed radially by zeta^2/(2 r_b). The flank recedes tangentially by this feed
-    times tan(alpha), and along the flank normal by this feed times sin(alpha). Hence the flank radius is r_b/tan(alpha)
-    in the tangential plane and r_b/sin(alpha) in the plane of action. The radius in the plane of action is Pahl's
-    "pressure line radius" R_e.
+    The cutter centre moves on a circle of radius r_b: at the distance zeta from the middle it is fed by zeta^2/(2 r_b),
+    so the flank radius is r_b/tan(alpha) in the tangential plane and r_b/sin(alpha), Pahl's R_e, in the plane of
+    action.
     """
     radius = pitch_radius(coupling)
     crowning_radius = coupling.crowning_ratio * radius
@@ -83,10 +81,7 @@ def positions_per_pitch(teeth: int) -> int:
 
 
 def revolution(teeth: int, refinement: int = 1) -> FloatArray:
-    """Return rotor angles [rad] of one revolution in equal steps, beginning at zero.
-
-    A tooth pitch is a whole number of steps. `refinement` multiplies the number of steps.
-    """
+    """Rotor angles [rad] of one revolution from zero; a pitch is a whole number of steps, times `refinement`."""
     return np.linspace(0.0, 2.0 * pi, refinement * positions_per_pitch(teeth) * teeth, endpoint=False)
 
 
@@ -104,17 +99,12 @@ def tooth_positions(rotor_angles: FloatArray, teeth: int) -> ToothPositions:
 def mesh_motion(
     coupling: Coupling, geometry: Geometry, operation: Operation, model: KinematicModel, *, side: int = 1, tilt: int = 1
 ) -> MeshMotion:
-    """Compute the harmonic coefficients of one mesh (Eqs. C3, C5).
+    """Harmonic coefficients of one mesh; `side` is +1 if the hub drives the sleeve, -1 otherwise (Eqs. C3, C5).
 
-    The contact position is s_1, and the tangential displacement is f_t. Here phi is the tooth angle, delta is the tilt
-    angle, eps is the crowning ratio, alpha is the pressure angle, and n is the flank normal. The radii r_o, R_e and R_t
-    are those of `Geometry`. With `spatial` kinematics s_1 = R_e delta n_x. If `side` is +1, f_t = r_o delta^2/(2 cos
-    alpha) sin(phi - alpha) [eps sin(phi - alpha)/sin alpha + cos phi]. If `side` is -1, pi - phi takes the place of phi
-    in this formula. The formulas are exact to leading order in delta, as a numerical calculation with exact involutes
-    has confirmed. With `tangential` kinematics only the tilt is considered, without the pivot motion: s_1 = -side R_t
-    delta sin phi and f_t = R_t delta^2/2 sin^2 phi. The paper describes the tangential model in words. In the
-    tangential model the sliding velocity and the displacement are largest where the travel of the contact reverses.
-    `side`: +1 if the hub drives the sleeve, -1 if the sleeve drives the hub.
+    `spatial`: s_1 = R_e delta n_x and f_t = r_o delta^2/(2 cos alpha) sin(phi - alpha) [eps sin(phi - alpha)/sin alpha
+    + cos phi], with pi - phi for phi if the sleeve drives; exact to leading order in delta, confirmed with exact
+    involutes. `tangential`, the paper's words: tilt alone, s_1 = -side R_t delta sin phi and f_t = R_t delta^2/2 sin^2
+    phi.
     """
     delta = tilt * operation.misalignment
     alpha, ratio, radius = coupling.pressure_angle, coupling.crowning_ratio, geometry.pitch_radius
@@ -149,11 +139,10 @@ def contact_position(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
 
 
 def hydrodynamic_velocity(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Compute the hydrodynamic velocity at each tooth [m/s] (Eq. C6).
+    """Hydrodynamic velocity at each tooth [m/s] (Eq. C6).
 
-    Let s_1' be the rate of change of the contact position s_1, and let v_G be the sliding velocity. The contact moves
-    with the velocity s_1' on the hub flank, and with the velocity s_1' + v_G on the sleeve flank. The constant 2.447 in
-    the load capacity applies to the sum of both velocities, not to the mean of both.
+    The contact moves with s_1' on the hub flank and s_1' + v_G on the sleeve flank; the constant 2.447 of the load
+    capacity takes the sum of both, not their mean.
     """
     contact_velocity = mesh.speed * (mesh.travel_sin * teeth.cosine - mesh.travel_cos * teeth.sine)
     return np.abs(2.0 * contact_velocity + mesh.sliding * teeth.sine)
@@ -168,18 +157,12 @@ def tangential_displacement(mesh: MeshMotion, teeth: ToothPositions) -> FloatArr
 
 
 def max_contact_travel(mesh: MeshMotion) -> float:
-    """Return the largest contact travel s_1max [m].
-
-    s_1max is R_t |delta| with tangential kinematics, and R_e |delta| with spatial kinematics.
-    """
+    """Largest contact travel s_1max [m]: R_t |delta| with tangential kinematics, R_e |delta| with spatial."""
     return hypot(mesh.travel_sin, mesh.travel_cos)
 
 
 def max_hydrodynamic_velocity(mesh: MeshMotion) -> float:
-    """Compute the largest hydrodynamic velocity over one revolution [m/s] (Eq. C6).
-
-    The sum of both surface velocities is a single harmonic of the tooth angle; v_Hmax is its amplitude.
-    """
+    """Largest hydrodynamic velocity v_Hmax of a revolution, the amplitude of its one harmonic [m/s] (Eq. C6)."""
     return hypot(2.0 * mesh.speed * mesh.travel_sin, mesh.sliding - 2.0 * mesh.speed * mesh.travel_cos)
 
 
@@ -189,10 +172,7 @@ def displacement_peak_to_peak(mesh: MeshMotion) -> float:
 
 
 def displacement_peak(mesh: MeshMotion) -> float:
-    """Return the tooth angle [rad] at which the displacement f_t is largest.
-
-    With tangential kinematics this angle is 90 degrees; with spatial kinematics this angle differs from 90 degrees.
-    """
+    """Tooth angle of the largest displacement f_t [rad]: 90 degrees with tangential kinematics, not with spatial."""
     return pi / 2.0 + 0.5 * atan2(-mesh.mixed, mesh.tilt - mesh.pivot)
 
 
@@ -215,11 +195,10 @@ def kinematics(mesh: MeshMotion) -> Kinematics:
 
 
 def flank_normals(mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Compute the normals of the loaded flanks, divided by cos(alpha) [-].
+    """Normals of the loaded flanks over cos(alpha): n = side cos(alpha) e_t + sin(alpha) e_r [-] (Eq. C4).
 
-    Eq. C4: n = side cos(alpha) e_t + sin(alpha) e_r. The factor `side` is +1 if the hub drives the sleeve, and -1 if
-    the sleeve drives the hub. The tangential tooth force times n/cos(alpha) is the lateral force of the tooth on the
-    sleeve. The radial part of this force points outward in both cases.
+    The tangential tooth force times n/cos(alpha) is the tooth's lateral force on the sleeve; its radial part points
+    out.
     """
     radial = tan(mesh.pressure_angle)
     return np.stack(
@@ -245,11 +224,9 @@ def friction_reversals(mesh: MeshMotion, axial_velocity: float) -> list[float]:
 
 
 def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -> RotorSamples:
-    """Return Gauss points and weights for means over the rotor angle.
+    """Gauss points and weights for means over the rotor angle, between the jumps of friction.
 
-    The friction of a tooth jumps if the relative velocity of the tooth changes sign. The rotor angles of these jumps
-    divide the pitch into parts, and the Gauss points lie inside the parts. The result is at least as accurate as a
-    midpoint rule with several hundred points.
+    As accurate as a midpoint rule with several hundred points.
     """
     uneven = coupling.pitch_errors is not None
     return _samples(coupling.teeth, uneven, tuple(friction_reversals(mesh, axial_velocity)))
@@ -257,11 +234,7 @@ def rotor_samples(coupling: Coupling, mesh: MeshMotion, axial_velocity: float) -
 
 @lru_cache(maxsize=4)
 def _samples(teeth: int, uneven: bool, reversals: tuple[float, ...]) -> RotorSamples:
-    """Return the Gauss points and weights of `rotor_samples`, from a cache if possible.
-
-    `reversals` are the tooth angles at which the friction changes direction. Without axial velocity these angles do not
-    depend on the misalignment, so the cache can be used for every misalignment.
-    """
+    """Gauss points and weights of `rotor_samples`, cached; friction changes direction at `reversals`."""
     pitch = 2.0 * pi / teeth
     breaks = [angle % pitch for angle in reversals]
     if uneven:

@@ -61,10 +61,9 @@ _AREAS: dict[str, tuple[str, float | None, float | None]] = {
 
 @dataclass(frozen=True, slots=True)
 class FilmState:
-    """The coordinates `overlap` and `load_capacity_coefficient` of the friction map, and intermediate results.
+    """Coordinates of the friction map and intermediate results.
 
-    `overlap` is inf if the contact does not travel. `load_capacity_coefficient` is inf if there is a film but no tooth
-    force.
+    `overlap` is inf without travel, `load_capacity_coefficient` if there is a film but no tooth force.
     """
 
     max_normal_force: float
@@ -78,12 +77,7 @@ class FilmState:
 
 
 def max_normal_force(inputs: CouplingInputs, mesh: MeshMotion) -> float:
-    """Compute the largest normal tooth force [N] at the rotor angle at which one tooth is in the tilt position.
-
-    The tilt position is the tooth angle of 90 degrees.
-
-    If the pitch deviations of the teeth differ, the result is the largest force at any rotor angle.
-    """
+    """Largest normal tooth force with a tooth at 90 degrees (tilt position); with pitch deviations anywhere [N]."""
     if len(set(inputs.coupling.pitch_errors or ())) <= 1:
         return float(_largest_forces(inputs, mesh, _positions_at(pi / 2, inputs.coupling.teeth)).max())
 
@@ -108,10 +102,9 @@ def _largest_forces(inputs: CouplingInputs, mesh: MeshMotion, teeth: ToothPositi
 
 
 def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -> tuple[float, float]:
-    """Compute the Hertzian contact between a plane and a cylinder of radius R_e (Eq. C12).
+    """Half width a_HZ [m] and pressure [Pa] of a plane and a cylinder of radius R_e as long as the tooth height (Eq.
 
-    The length of the cylinder is the tooth height. Returns `half_width`: half contact width a_HZ [m]; `pressure`:
-    largest Hertzian pressure [Pa].
+    C12).
     """
     steel = Solid(youngs_modulus=coupling.youngs_modulus, poisson_ratio=coupling.poisson_ratio)
     modulus = reduced_modulus(steel, steel)
@@ -120,12 +113,10 @@ def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -
 
 
 def inlet_length(model: ModelOptions, face_width: float, max_travel: float) -> float:
-    """Return the length b_I [m] of the converging gap ahead of the contact.
+    """Length b_I [m] of the converging gap ahead of the contact, which the paper does not define.
 
-    The paper does not define b_I. If `model.inlet_length` is not None, b_I has this value; otherwise `model.inlet`
-    chooses one of several definitions. With the inlet model `face`, b_I is the distance from the contact to the end of
-    the face, when the contact is farthest from the middle of the face. According to the paper, the film is thickest
-    when the contact is near this position. If the contact leaves the tooth, b_I is zero with every inlet model.
+    `face` takes the distance from the contact, farthest from the middle, to the end of the face: there the film is
+    thickest by the paper. Zero if the contact leaves the tooth.
     """
     if max_travel >= face_width / 2.0:
         return 0.0
@@ -138,16 +129,11 @@ def inlet_length(model: ModelOptions, face_width: float, max_travel: float) -> f
 
 @kernel
 def starved_load(inlet_ratio: float) -> float:
-    """Compute the dimensionless load of a parabolic gap with a starved inlet [-] (Eqs. C15, C16).
+    """Load W = (1 - H_m/H_B)^2/(4 H_m) of a parabolic gap, pressure from x = -B sqrt(2 R h_0) on [-] (Eqs. C15, C16).
 
-    The gap is h_0 + x^2/(2 R). Here h_0 is the smallest gap, x is the distance from the smallest gap in the direction
-    of flow, and R is the flank radius R_e. The other symbols in the unit of the load are those of
-    `hydrodynamic_capacity`. The Reynolds equation for rigid surfaces and constant viscosity is solved in closed form.
-    At the exit x = tan(g) sqrt(2 R h_0), the pressure and its gradient are zero. This condition is [A2(g) + A2(g_B)]
-    cos^2 g = A4(g) + A4(g_B), where tan g_B = B. A2(g) and A4(g) are the integrals of cos^2 and cos^4 from zero to g.
-    Bisection finds g in (0, g_B). The load is W = (1 - H_m/H_B)^2/(4 H_m), where H_m and H_B are the gaps at exit and
-    inlet, divided by the smallest gap h_0. `inlet_ratio`: inlet ratio B; the pressure starts at x = -B sqrt(2 R h_0)
-    [-].
+    Reynolds' equation for rigid surfaces and constant viscosity, with zero pressure and gradient at the exit x = tan(g)
+    sqrt(2 R h_0): [A2(g) + A2(g_B)] cos^2 g = A4(g) + A4(g_B), tan g_B = B; A2 and A4 are integrals of cos^2 and cos^4,
+    H_m and H_B the gaps at exit and inlet over h_0. Bisection finds g in (0, g_B).
     """
     inlet = atan(inlet_ratio)
     a2 = inlet / 2.0 + sin(2.0 * inlet) / 4.0
@@ -168,10 +154,7 @@ def starved_load(inlet_ratio: float) -> float:
 
 
 def inlet_factor(inlet_ratio: float) -> float:
-    """Compute the load capacity with a starved inlet, divided by the load capacity with an infinitely long inlet.
-
-    Fig. 8; Eq. C16.
-    """
+    """Load capacity with a starved inlet over that with an infinitely long one (Fig. 8; Eq. C16)."""
     if inlet_ratio < 0.02:
         # Series, because the closed form loses its digits by cancellation at such a small ratio.
         return 0.68948 * inlet_ratio**4
@@ -189,10 +172,7 @@ def hydrodynamic_capacity(
 
 
 def film_velocity(mesh: MeshMotion, angle: float | None) -> float:
-    """Return the hydrodynamic velocity [m/s] that builds the film.
-
-    This is the velocity at the given tooth angle [rad], or the largest velocity of a revolution if the angle is None.
-    """
+    """Hydrodynamic velocity that builds the film, at the given tooth angle or the largest of a revolution [m/s]."""
     if angle is None:
         return max_hydrodynamic_velocity(mesh)
     position = ToothPositions(sine=np.array(sin(angle)), cosine=np.array(cos(angle)))
@@ -233,11 +213,7 @@ def _capacity_ratio(capacity: float, force: float) -> float:
 
 
 def friction_regime(overlap: float, load_capacity_coefficient: float) -> Regime:
-    """Find the area of the friction map (Fig. 9).
-
-    If the load capacity coefficient is on a boundary, the area is in the row with the higher number. If the overlap is
-    on a boundary, the area is in the middle column.
-    """
+    """Area of the friction map (Fig. 9); on a boundary the row with the higher number and the middle column."""
     row = 1 + sum(load_capacity_coefficient >= boundary for boundary in CAPACITY_BOUNDARIES)
     column = 1 + (overlap >= OVERLAP_BOUNDARIES[0]) + (overlap > OVERLAP_BOUNDARIES[1])
     area = f"{row}.{column}"
@@ -252,20 +228,14 @@ def friction_regime(overlap: float, load_capacity_coefficient: float) -> Regime:
 
 
 def _distance_to_boundary(overlap: float, load_capacity_coefficient: float) -> float | None:
-    """Return the smallest |ln(coordinate/boundary)| over all boundaries on both axes of the friction map.
-
-    Return None if each coordinate is zero or inf.
-    """
+    """Smallest |ln(coordinate/boundary)| on both axes of the friction map; None if each coordinate is zero or inf."""
     ratios = [overlap / boundary for boundary in OVERLAP_BOUNDARIES]
     ratios += [load_capacity_coefficient / boundary for boundary in CAPACITY_BOUNDARIES]
     return min((abs(log(ratio)) for ratio in ratios if 0.0 < ratio < inf), default=None)
 
 
 def mixed_friction(law: MixedFrictionCurve | MixedFrictionTable, sliding_velocity: float) -> float:
-    """Compute the coefficient of friction in area 1.1 (mixed lubrication) of the friction map [-] (Eq. C17).
-
-    The paper shows the curve in Fig. 10, but does not print points of the curve.
-    """
+    """Coefficient of friction in area 1.1 (Fig. 10, without printed points) [-] (Eq. C17)."""
     if isinstance(law, MixedFrictionTable):
         return float(np.interp(sliding_velocity, law.sliding_velocity, law.coefficient))
     ratio = sliding_velocity / law.velocity
@@ -285,11 +255,9 @@ def _interpolate_logarithm(x: float, points: tuple[tuple[float, float], ...]) ->
 
 
 def _well_supplied(load_capacity_coefficient: float, mixed: float, lowest: float) -> float:
-    """Compute the coefficient of friction at an overlap below 1.
+    """Coefficient of friction at an overlap below 1.
 
-    `mixed` is the coefficient of mixed friction at the present velocity, and `lowest` is the smallest coefficient at
-    any velocity. The result is `mixed` at the load capacity coefficient 0, and `lowest` at 0.2. From 0.8 on, the result
-    is the friction of a full film.
+    `mixed` at the load capacity coefficient 0, `lowest` at 0.2, that of a full film from 0.8 on.
     """
     full_film = min(0.01, lowest)
     if load_capacity_coefficient > 0.8:
@@ -298,23 +266,18 @@ def _well_supplied(load_capacity_coefficient: float, mixed: float, lowest: float
 
 
 def _poorly_supplied(overlap: float, load_capacity_coefficient: float) -> float:
-    """Compute the coefficient of friction at an overlap of 2 or more.
-
-    Without a film the coefficient rises with the overlap to 0.16, the largest value that Calistrat measured (1981).
-    """
+    """Coefficient of friction at an overlap of 2 or more; without a film up to 0.16, Calistrat's largest (1981)."""
     dry = 0.1 + 0.06 * min(1.0, (overlap - 2.0) / 2.0)
     points = ((0.0, dry), (0.2, 0.1), (0.8, 0.1), (1.6, 0.05))
     return _interpolate_logarithm(load_capacity_coefficient, points)
 
 
 def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: float, lowest: float) -> float:
-    """Compute the coefficient of friction, which is continuous over the whole friction map [-] (Eq. C18).
+    """Coefficient of friction, continuous over the whole friction map [-] (Eq. C18).
 
-    The paper states only a band of friction for each area. The law used here interpolates between the end values of
-    these bands. The law lies inside the bands of areas 1.1, 1.3, 2.1, 2.2, 2.3 and 3.1. In area 1.2 the law is a smooth
-    transition from area 1.1 to area 1.3. Near overlap 1 the law may leave the band of area 3.2; according to the paper
-    itself, the boundaries of the areas are not sharp ("fluid"). The coefficient of friction never rises when the load
-    capacity coefficient rises.
+    Interpolates between the ends of the paper's bands, inside those of areas 1.1, 1.3, 2.1, 2.2, 2.3 and 3.1. Area 1.2
+    is a transition; near overlap 1 it may leave the band of 3.2, whose boundary the paper calls "fluid". Never rises
+    with the load capacity coefficient.
     """
     if overlap > 2.0:
         return _poorly_supplied(overlap, load_capacity_coefficient)
@@ -328,10 +291,7 @@ def regime_friction(overlap: float, load_capacity_coefficient: float, mixed: flo
 def friction_coefficient(
     friction: Friction, overlap: float, load_capacity_coefficient: float, sliding_velocity: float
 ) -> float:
-    """Return the user's coefficient of friction, or else the coefficient of the friction map.
-
-    `sliding_velocity` [m/s] is the largest sliding velocity.
-    """
+    """User's coefficient of friction, or that of the friction map; `sliding_velocity` [m/s] is the largest."""
     if friction.coefficient is not None:
         return friction.coefficient
     law = friction.law
@@ -340,14 +300,7 @@ def friction_coefficient(
 
 
 def static_friction(friction: Friction) -> float:
-    """Return the coefficient of friction at rest.
-
-    The function returns the first available value of this list:
-
-    - the user's static coefficient
-    - the user's coefficient of friction
-    - the coefficient of the friction map for teeth without a film at zero sliding velocity
-    """
+    """User's coefficient at rest, else the user's coefficient, else that of the friction map at rest without a film."""
     if friction.static_coefficient is not None:
         return friction.static_coefficient
     return friction_coefficient(friction, overlap=inf, load_capacity_coefficient=0.0, sliding_velocity=0.0)

@@ -65,11 +65,7 @@ def solve(inputs: CouplingInputs) -> CouplingResult:
 
 
 def _lubrication(film: FilmState, friction: float) -> Lubrication:
-    """Return the results of lubrication.
-
-    Contact overlap and inlet ratio are None if they are infinite. The load capacity coefficient is None if no tooth is
-    loaded.
-    """
+    """Results of lubrication; None for infinite overlap and inlet ratio, and for the load capacity without load."""
     tr = film.load_capacity_coefficient
     return Lubrication(
         max_normal_force=film.max_normal_force,

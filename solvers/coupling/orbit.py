@@ -105,10 +105,7 @@ def _finer_paths(inputs: CouplingInputs, settled: _SettledPath) -> list[_Settled
 
 
 def _safe_force(inputs: CouplingInputs) -> float:
-    """Return a lateral force [N] that the teeth can hold at every rotor angle.
-
-    The sweeps limit the inertia force to this value.
-    """
+    """Lateral force [N] that the teeth can hold at every rotor angle; the sweeps limit the inertia force to it."""
     coupling = inputs.coupling
     holding_force = inputs.operation.torque / (pitch_radius(coupling) * cos(coupling.pressure_angle))
     return 0.999 * cos(pi / coupling.teeth) * holding_force
@@ -117,10 +114,9 @@ def _safe_force(inputs: CouplingInputs) -> float:
 def _settled_path(
     inputs: CouplingInputs, angles: FloatArray, force: FloatArray, highest_order: int, max_sweeps: int
 ) -> _SettledPath:
-    """Repeat sweeps over the rotor angles until the path of the sleeve no longer changes.
+    """Sweep over the rotor angles until the path of the sleeve repeats, from a guess `force` (rows, 2) [N].
 
-    `force` (rows, 2) [N] is a guess of the inertia force for the first sweep. At first, the change of the path may grow
-    from sweep to sweep, because further teeth come under load. The change falls after at most about a dozen sweeps.
+    The change may grow for about a dozen sweeps, while further teeth come under load.
     """
     coupling, operation = inputs.coupling, inputs.operation
     mesh = mesh_motion(coupling, tooth_geometry(coupling), operation, inputs.model.kinematics)
@@ -150,10 +146,9 @@ def _settled_path(
 def _farthest(
     inputs: CouplingInputs, mesh: MeshMotion, angles: FloatArray, force: FloatArray, highest_order: int
 ) -> float:
-    """Find the largest displacement [m] of the sleeve under a settled inertia force (rows, 2) [N].
+    """Largest displacement [m] of the sleeve under a settled inertia force (rows, 2) [N], also between the angles.
 
-    The search also covers positions between the rotor angles, because a peak of the displacement may last only a
-    fraction of a pitch. The inertia force at these positions follows from its Fourier terms.
+    A peak may last only a fraction of a pitch; the force there follows from its Fourier terms.
     """
     coupling, limit = inputs.coupling, _safe_force(inputs)
     order = np.arange(highest_order + 1)
@@ -208,10 +203,7 @@ def _harmonics(force: FloatArray) -> FloatArray:
 def _result(
     angles: FloatArray, settled: _SettledPath, finer: Sequence[_SettledPath], geometry: Geometry
 ) -> OrbitResult:
-    """Return the results of the settled path.
-
-    The uncertainty of a result is the largest difference between this result and the same result of a finer path.
-    """
+    """Results of the settled path; uncertainties are the largest differences from the finer paths."""
     harmonics = settled.harmonics
     displacement_uncertainty = max((abs(path.farthest - settled.farthest) for path in finer), default=None)
     harmonics_uncertainty = max((float(np.abs(path.harmonics - harmonics).max()) for path in finer), default=None)

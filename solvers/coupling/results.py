@@ -32,12 +32,7 @@ class Geometry:
 
 @record
 class KinematicCurves:
-    """Motion of a tooth of the driving hub over one revolution, one value per angle.
-
-    `angle` is measured from the pivot position; the tilt positions are at 90 and 270 degrees. `sliding_velocity` is the
-    axial velocity of the hub relative to the sleeve, with its sign. `hydrodynamic_velocity` is a magnitude.
-    `contact_position` is the axial position of the contact on the hub tooth.
-    """
+    """Motion of a tooth of the driving hub over one revolution; angles count from the pivot position."""
 
     angle: FloatArray = quantity("tooth angle", "φ", unit="deg", text="tooth angle from the pivot position")
     sliding_velocity: FloatArray = quantity(
@@ -95,11 +90,7 @@ class LoadCurves:
 class LoadDistribution:
     """Load distribution of the mesh in which the hub drives the sleeve, at the requested rotor angle.
 
-    `load_concentration` is the ratio of the largest to the mean tooth force; this ratio is None without torque.
-    `rotation` is the rotation of the hub relative to the sleeve, as the length of an arc at the pitch radius. If the
-    misalignment exceeds `unloading_misalignment`, at least one tooth carries no load; this limit applies to a centred
-    sleeve with many teeth and no pitch deviations. `sleeve_displacement` (x, y) is relative to the hub. `iterations` is
-    the number of iterations for a floating sleeve, and 0 for a centred sleeve.
+    `unloading_misalignment` holds for a centred sleeve with many teeth and no pitch deviations.
     """
 
     mean_tangential_force: float = quantity("mean tangential force", "F_m", unit="n", text="of a tooth", equation="C10")
@@ -129,13 +120,7 @@ class LoadDistribution:
 
 @record(equation="coupling#friction")
 class Regime:
-    """An area of the paper's map of friction conditions (Fig. 9), and the friction band of this area.
-
-    If the paper states no lower end of the band, `friction_min` is None. If the paper states no upper end,
-    `friction_max` is None. `distance_to_boundary` is the smallest |ln(coordinate/boundary)|, where the coordinates are
-    the overlap and the load capacity coefficient. This distance is None if all boundaries of the map are infinitely far
-    away, which happens without misalignment.
-    """
+    """An area of the friction map (Fig. 9) and its band of friction; None for an end that the paper leaves open."""
 
     area: str = quantity("friction area", None, f"{PAHL}, Fig. 9", text="area of the map of friction conditions")
     name: str = quantity("kind of lubrication", None, f"{PAHL}, Fig. 9", text="lubrication in this area")
@@ -149,11 +134,10 @@ class Regime:
 
 @record(equation="C12")
 class Lubrication:
-    """Contact and film of the most heavily loaded tooth while one tooth is in the tilt position.
+    """Contact and film of the most loaded tooth with one tooth in the tilt position.
 
-    If there are pitch deviations, the results are those of the most heavily loaded tooth in a whole revolution.
-    `contact_overlap` is None if the contact does not travel. `inlet_ratio` is None if the inlet is infinitely long.
-    `load_capacity_coefficient` is None without load.
+    With pitch deviations, of the most loaded tooth of a revolution. `contact_overlap` is None if the contact does not
+    travel, `load_capacity_coefficient` without load.
     """
 
     max_normal_force: float = quantity(
@@ -184,12 +168,7 @@ class Lubrication:
 
 @record(equation="C22")
 class SelfInducedThrust:
-    """Thrust that two meshes cause without axial motion, as a mean over one tooth pitch.
-
-    `overturning_moment` is the moment that the friction in both meshes exerts on the sleeve. Two closed forms give the
-    thrust: `simple_model_force` for one pair of opposite teeth per mesh, and `uniform_load_force` for equal loads on
-    all teeth. Both closed forms are zero in the angular arrangement.
-    """
+    """Thrust that two meshes cause without axial motion, as a mean over one tooth pitch, with its closed forms."""
 
     force: float = quantity(
         "self-induced thrust",
@@ -220,16 +199,11 @@ class SelfInducedThrust:
 
 @record(equation="C19")
 class AxialThrust:
-    """Mean axial thrust over one tooth pitch or, if there are pitch deviations, over one revolution.
+    """Mean axial thrust over a tooth pitch or, with pitch deviations, over a revolution.
 
-    In the arrangement `single`, `force` is the thrust of one mesh and is positive in the direction of the axial
-    velocity. In the other arrangements, `force` acts on one shaft and is positive if the shafts are pulled together.
-
-    If nothing slides, friction can have any value up to its limit. In this case `indeterminate` is True, and the thrust
-    lies between `lower_bound` and `upper_bound`. In all other cases both bounds equal `force`.
-
-    `fraction_of_limit` is None without load. `customary_force` follows a rule of practice, and is None without a shaft
-    diameter. `breakaway_force` assumes coaxial shafts without a lubricant film.
+    `single`: thrust of the mesh, positive along the axial velocity; otherwise force on one shaft, positive if the
+    shafts are pulled together. If nothing slides, `indeterminate` is True and the thrust lies between the bounds, which
+    else equal it.
     """
 
     force: float = quantity(
@@ -299,11 +273,10 @@ class AxialThrust:
 
 @record(equation="C25")
 class Losses:
-    """Friction power [W] and moments [N m] of one mesh, as means over one tooth pitch.
+    """Friction power and moments of one mesh, means over a tooth pitch or, with pitch deviations, over a revolution.
 
-    If there are pitch deviations, the means are over one revolution. The friction power is the friction moment times
-    the tilting speed, plus the thrust times the axial velocity. If nothing slides, the friction moment is undetermined
-    and is reported as zero.
+    The power is friction moment times tilting speed plus thrust times axial velocity; if nothing slides, the
+    undetermined moment is reported as zero.
     """
 
     friction_power: float = quantity("friction power", "P_f", unit="w")
@@ -320,9 +293,7 @@ class Losses:
 class Limits:
     """Design limits of a coupling, and its linear stiffness with every tooth loaded.
 
-    `sliding_velocity_limit` is in m/s, `allowable_misalignment` in rad, and `sleeve_centring_torque` in N m.
-    `torsional_stiffness` is in N m/rad, and `lateral_stiffness` in N/m. `allowable_misalignment` is None if the
-    coupling turns too slowly to reach the limit of the sliding velocity, or if the coupling does not turn.
+    `allowable_misalignment` is None if the coupling is too slow to reach the sliding velocity limit.
     """
 
     sliding_velocity_limit: float = quantity(
@@ -354,11 +325,7 @@ class Limits:
 
 @record(equation="R3")
 class Derived:
-    """Values used in the calculation, including the values for omitted inputs.
-
-    `coupling` is the coupling with its default proportions. `viscosity` [Pa s] and `viscosity_index` are those of the
-    oil used.
-    """
+    """Values used in the calculation, including those for omitted inputs."""
 
     coupling: Coupling
     viscosity: float = quantity("oil viscosity used", "η", unit="pa_s", text="at the teeth")
@@ -398,11 +365,7 @@ class Orbit:
 
 @record(equation="C11")
 class InertiaForce:
-    """Inertia force of the part of the sleeve's mass that is assigned to one mesh, at the rotor angles of the orbit.
-
-    The harmonics are amplitudes. The amplitude of order 0 is the magnitude of the mean. The amplitude of every
-    other order k is 2 |c_k|, where c_k is the Fourier coefficient.
-    """
+    """Inertia force of the sleeve mass of one mesh; harmonics are amplitudes 2 |c_k|, order 0 the mean."""
 
     x: FloatArray = quantity(
         "inertia force in the pivot direction",

@@ -100,11 +100,10 @@ def unbalanced_force(
     places: Places,
     ahead: FloatArray,
 ) -> Unbalance:
-    """Return the residual Phi(g) - g of the sleeve's force balance.
+    """Residual Phi(g) - g of the sleeve's balance under the lateral force g on the left mesh and -g on the right.
 
-    The function balances both meshes under the lateral force g = `force` on the left mesh and -g on the right mesh.
-    `places` holds the start values of this balance, and receives the solution. `ahead` (2, teeth) receives the
-    interference of the teeth. If a mesh cannot hold the force, the size of the residual is inf.
+    `places` holds start values and receives the solution, `ahead` (2, teeth) the interference; the size is inf if a
+    mesh cannot hold the force.
     """
     moment_x, moment_y, xx, xy, yx, yy = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for mesh in range(2):
@@ -133,15 +132,11 @@ def balance_sleeve(
     places: Places,
     ahead: FloatArray,
 ) -> float:
-    """Solve Phi(g) = g at one rotor angle; the solution replaces the start values (Eq. C22).
+    """Solve Phi(g) = g at one rotor angle; return |Phi(g) - g|, inf if a mesh cannot hold the force [T/r_o] (Eq. C22).
 
-    Each step of Newton's method is shortened until the residual falls. If shortening fails, some damped fixed-point
-    steps (substitutions) follow. These steps are necessary because Phi is piecewise linear (teeth come under load), and
-    Newton's method may cycle between the linear pieces. `interference`: interference at rest, shape (2, teeth) [T/(r_o
-    c_t)]; `normal`: flank normals divided by cos(alpha), shape (2, 2, teeth) [-]; `arm`: direction of friction times
-    the tooth's position, shape (2, 2, teeth) [-]; `force`: start value of the force g, shape (2,); replaced by the
-    solution [T/r_o]; `ahead`: receives the interference of the balanced meshes, shape (2, teeth) [T/(r_o c_t)]. Returns
-    residual |Phi(g) - g| [T/r_o]; inf if a mesh cannot hold the force.
+    Newton's method with steps shortened until the residual falls; Phi is piecewise linear, so that it may cycle, and
+    then damped substitutions follow. Shapes: `interference` (2, teeth) and `ahead`, which receives that of the balance,
+    [T/(r_o c_t)]; `normal` (flank normals over cos(alpha)) and `arm` (2, 2, teeth) [-]; `force` (2,), in place [T/r_o].
     """
     accepted_x, accepted_y, step_x, step_y = 0.0, 0.0, 0.0, 0.0
     accepted_residual, length, substitutions = np.inf, 1.0, 0
@@ -181,11 +176,9 @@ def balance_rows(
     force_limit: float,
     share: FloatArray,
 ) -> float:
-    """Balance the sleeve at every rotor angle, and write the tooth forces to `share` (rows, 2, teeth).
+    """Balance the sleeve at every rotor angle from the one before, else from zero; return the largest residual.
 
-    The balance at each angle starts from the solution at the previous angle. If the iteration from this start does not
-    converge, a second iteration starts from zero force and zero displacement. The function stops at the first angle
-    without balance. Returns the largest residual.
+    `share` (rows, 2, teeth) receives the tooth forces. Stops at the first angle without balance.
     """
     force, places = np.zeros(2), Places(np.zeros(2), np.zeros(2), np.zeros(2))
     largest = 0.0
@@ -208,23 +201,14 @@ def balance_rows(
 
 @dataclass(frozen=True, slots=True)
 class SleeveEquilibrium:
-    """Thrust on the shafts and overturning moment on the sleeve, caused by the two meshes of the sleeve.
-
-    Thrust and moment are means over one tooth pitch, or over one revolution if there are pitch deviations. `thrust` [N]
-    is the axial force on one of the two shafts; a positive thrust pulls the shafts together. `overturning_moment` [N m]
-    is the moment of friction on the sleeve.
-    """
+    """Mean thrust on one shaft [N], positive if it pulls the shafts together, and moment on the sleeve [N m]."""
 
     thrust: float
     overturning_moment: float
 
 
 def two_meshes(inputs: CouplingInputs, geometry: Geometry) -> tuple[MeshMotion, MeshMotion]:
-    """Return the left mesh, where the hub drives the sleeve, and the right mesh, where the sleeve drives the hub.
-
-    With a parallel offset (Z) the right hub tilts in the same direction as the left hub. With an angle (M) the right
-    hub tilts in the opposite direction.
-    """
+    """Left mesh (hub drives) and right mesh (sleeve drives); the right hub tilts alike (Z) or oppositely (M)."""
     right_tilt = 1 if inputs.operation.arrangement == "parallel_offset" else -1
     left = mesh_motion(inputs.coupling, geometry, inputs.operation, inputs.model.kinematics)
     right = mesh_motion(inputs.coupling, geometry, inputs.operation, inputs.model.kinematics, side=-1, tilt=right_tilt)
@@ -234,15 +218,11 @@ def two_meshes(inputs: CouplingInputs, geometry: Geometry) -> tuple[MeshMotion, 
 def sleeve_equilibrium(
     inputs: CouplingInputs, geometry: Geometry, friction: float, axial_velocity: float
 ) -> SleeveEquilibrium:
-    """Compute the thrust and the overturning moment of two meshes (Eq. C22).
+    """Thrust [N] and overturning moment [N m] of two meshes; both zero if nothing slides (Eq. C22).
 
-    Nothing slides if the axial velocity is zero and, in addition, the misalignment or the speed is zero. The direction
-    of friction is then undetermined. If mu d_o/l_H < cos(pi/z), an equilibrium always exists. A lateral force g on the
-    sleeve changes the tooth forces, and with them the moments of friction. Let Phi(g) be the lateral force that
-    balances these moments. For every force g that the teeth can hold, the teeth can also hold the force Phi(g). By
-    Brouwer's fixed-point theorem, Phi(g) = g then has a solution. `axial_velocity`: axial velocity at each mesh,
-    positive if the shafts move apart [m/s]. Returns thrust [N] and overturning moment [N m]; both are zero if nothing
-    slides. Raises NoSolution: `sleeve_equilibrium` if the tooth forces cannot hold the moment of friction.
+    `axial_velocity` is that of each mesh, positive if the shafts move apart [m/s]. Phi(g) is the lateral force that
+    balances the friction moments under a lateral force g; if mu d_o/l_H < cos(pi/z), the teeth can hold Phi(g) for
+    every g that they can hold, and Phi(g) = g has a solution (Brouwer). Raises NoSolution: `sleeve_equilibrium`.
     """
     coupling, torque = inputs.coupling, inputs.operation.torque
     meshes = two_meshes(inputs, geometry)
@@ -274,10 +254,9 @@ def _tooth_forces(
     direction: FloatArray,
     friction: float,
 ) -> FloatArray:
-    """Compute the tangential tooth forces [N], in the shape of `direction` (rotor angles, meshes, teeth).
+    """Tangential tooth forces [N] in the shape of `direction` (rotor angles, meshes, teeth).
 
-    Raises NoSolution if there is no balance. The residual in NoSolution is the unbalanced lateral force divided by
-    T/r_o, but at most 1.
+    Raises NoSolution with the unbalanced lateral force over T/r_o, at most 1.
     """
     coupling, teeth = inputs.coupling, samples.teeth
     unit, cosine = elastic_rotation(coupling, inputs.operation.torque), cos(coupling.pressure_angle)

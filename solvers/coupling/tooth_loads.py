@@ -61,10 +61,7 @@ _FINER = 8  # chosen: ratio of the steps of successive searches; two searches lo
 
 
 class Motion(NamedTuple):
-    """A rotation and a displacement (x, y), or a torque and a lateral force (x, y).
-
-    The rotation is the common rotation of the teeth. The displacement is that of the sleeve.
-    """
+    """Common rotation of the teeth and displacement (x, y) of the sleeve, or a torque and a lateral force (x, y)."""
 
     rotation: float
     x: float
@@ -92,11 +89,7 @@ class Hessian(NamedTuple):
 
 @inner_kernel
 def _crossing(ahead: FloatArray, highest: float, psi: float) -> float:
-    """Return the next rotation psi in Newton's method for the equation sum max(0, psi + w_i - w_max) = 1.
-
-    `ahead` holds the lead w_i of each tooth, `highest` is the largest lead w_max, and `psi` is the present rotation,
-    which is positive.
-    """
+    """Next psi > 0 of Newton's method for sum max(0, psi + w_i - w_max) = 1; `ahead` holds the leads w_i."""
     count, total = 0, 0.0
     for lead in ahead:
         behind = lead - highest
@@ -108,14 +101,11 @@ def _crossing(ahead: FloatArray, highest: float, psi: float) -> float:
 
 @inner_kernel
 def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
-    """Find the exact common rotation psi at which the teeth carry unit torque [T/(r_o c_t)].
+    """Exact common rotation psi at which the teeth carry unit torque: sum max(0, psi + v_i) = 1 [T/(r_o c_t)] (Eq. C8).
 
-    Eq. C8: sum max(0, psi + v_i) = 1, where v_i is the lead w_i minus the largest of all leads. The sum is a convex and
-    piecewise linear function of psi. From any positive start, the first step of Newton's method leads to the root or to
-    a larger value. Each further step reduces psi and unloads at least one tooth, until the linear piece that contains
-    the root is reached. Sorting would give the same result. If the v_i are sorted in descending order and only the
-    first k teeth are loaded, the rotation is psi_k = (1 - sum_1..k v_i)/k. The root is the psi_k with the largest k for
-    which psi_k + v_k is positive.
+    v_i is the lead minus the largest. The sum is convex and piecewise linear: the first Newton step leads to the root
+    or beyond, each further step unloads at least one tooth. With v_i in descending order the root is psi_k = (1 -
+    sum_1..k v_i)/k with the largest k for which psi_k + v_k > 0.
     """
     psi = _crossing(ahead, highest, start)
     following = _crossing(ahead, highest, psi)
@@ -126,11 +116,10 @@ def rotation_of_leads(ahead: FloatArray, highest: float, start: float) -> float:
 
 @inner_kernel
 def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
-    """Replace the lead w_i of each tooth by its interference u_i under unit torque, in place.
+    """Replace the leads w_i by the interferences u_i under unit torque, in place; return the common rotation twice.
 
-    The lead of a tooth is the length by which the tooth is ahead. Returns the common rotation of the teeth twice. The
-    first value is counted from the rotation at which the tooth with the largest lead makes contact. The second value is
-    counted from zero and equals u_i - w_i for all teeth. The iteration for the first value starts from `start`.
+    The first counts from the contact of the tooth with the largest lead, and starts at `start`; the second is u_i -
+    w_i.
     """
     highest: float = ahead[0]
     for lead in ahead:
@@ -143,11 +132,10 @@ def turn_to_torque(ahead: FloatArray, start: float) -> tuple[float, float]:
 
 @kernel
 def centred_rows(ahead: FloatArray, unit: float, unit_force: float, rotation: FloatArray) -> None:
-    """Compute the tooth forces and the common rotation of the teeth at each rotor angle, with a centred sleeve.
+    """Tooth forces and common rotation at each rotor angle, with a centred sleeve.
 
-    A row of `ahead` belongs to one rotor angle. On entry, `ahead` contains the interference at rest w_i of each tooth.
-    On return, `ahead` contains the force of each tooth, and `rotation` contains the common rotation of the teeth at
-    each rotor angle. `unit` = T/(r_o c_t) is the scale of lengths, and `unit_force` = T/r_o is the scale of forces.
+    A row of `ahead` holds the interferences at rest on entry and the forces on return; `rotation` receives the
+    rotation. `unit` is T/(r_o c_t), `unit_force` T/r_o.
     """
     psi = 1.0
     for row in range(ahead.shape[0]):
@@ -185,9 +173,7 @@ def add_up(ahead: FloatArray, normal: FloatArray) -> tuple[Motion, Hessian]:
 def solve_loaded(hessian: Hessian, right: Motion) -> tuple[Motion, float, float]:
     """Solve `hessian` times motion = `right` in the directions in which the loaded teeth have stiffness.
 
-    If fewer than three teeth are loaded, the teeth do not resist a displacement of the sleeve in one direction, or in
-    any direction. The motion has no component in such a direction. Returns the motion, and the x and y components of
-    that part of the lateral force which acts in directions without stiffness.
+    Returns the motion and the (x, y) part of the force in directions without stiffness (fewer than three loaded teeth).
     """
     loaded = max(hessian.loaded, 1.0)
     mean_x, mean_y = hessian.x / loaded, hessian.y / loaded
@@ -212,10 +198,10 @@ def solve_loaded(hessian: Hessian, right: Motion) -> tuple[Motion, float, float]
 
 @inner_kernel
 def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
-    """Return the Newton step that adds the `missing` forces, and the rate at which the energy falls along this step.
+    """Newton step that adds the `missing` forces, and the rate at which the energy falls along it.
 
-    If more than half of the missing force acts in a direction in which the loaded teeth have no stiffness, the step
-    follows this direction instead. Such a step does not change the forces of the loaded teeth.
+    If more than half of the missing force has no stiffness against it, the step follows that direction, without
+    changing the forces of the loaded teeth.
     """
     step, free_x, free_y = solve_loaded(hessian, missing)
     unheld = hypot(free_x, free_y)
@@ -227,11 +213,7 @@ def next_step(hessian: Hessian, missing: Motion) -> tuple[Motion, float]:
 
 @inner_kernel
 def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: float) -> tuple[float, float]:
-    """Compute the first and the second derivative of the energy along a step, at one length of the step.
-
-    The energy is differentiated with respect to the length. `ahead` holds the interferences u_i of the teeth at length
-    zero, and `start` is the first derivative at length zero. A step of length 1 changes the interferences by `change`.
-    """
+    """First and second derivative of the energy at one length of a step, from its derivative `start` at length zero."""
     first, second = start, 0.0
     for i in range(ahead.size):
         u = ahead[i] + length * change[i]
@@ -243,11 +225,9 @@ def slope_along(ahead: FloatArray, change: FloatArray, start: float, length: flo
 
 @inner_kernel
 def length_to_lowest(ahead: FloatArray, change: FloatArray, start: float) -> float:
-    """Find the length of a step at which the energy is lowest.
+    """Length of a step of lowest energy, or LONGEST_STEP: safeguarded Newton on the piecewise linear derivative.
 
-    If the energy has no minimum, the result is LONGEST_STEP. The derivative of the energy has the negative value
-    `start` at length zero, and rises piecewise linearly with the length. Newton's method, safeguarded by a bracket,
-    finds the length at which the derivative is zero. If no tooth resists the motion at a length, the length is doubled.
+    If no tooth resists the motion at a length, the length is doubled.
     """
     before, behind, length = 0.0, LONGEST_STEP, 1.0
     while length < LONGEST_STEP:
@@ -273,9 +253,8 @@ def float_sleeve(
 ) -> tuple[int, Hessian]:
     """Balance a floating sleeve under unit torque and an external force, in place (Eq. C9).
 
-    `normal`: flank normals divided by cos(alpha), shape (2, teeth) [-]; `force`: external force on the sleeve, shape
-    (2,) [T/r_o]. Returns `iterations`: number of iterations; negative if the balance was not reached [-]; `hessian`:
-    second derivatives of the energy at the balance [-].
+    `normal` (2, teeth) is over cos(alpha) [-]; `force` (2,) in T/r_o. Returns the number of iterations, negative
+    without balance, and the second derivatives of the energy.
     """
     normal_x, normal_y = normal
     force_x, force_y = force
@@ -311,12 +290,10 @@ def floating_rows(
     places: Places,
     iterations: IntArray,
 ) -> None:
-    """Balance a floating sleeve in each row, and write the results to `share`, `places` and `iterations`.
+    """Balance a floating sleeve in each row (rotor angle); write `share`, `places` and `iterations`.
 
-    A row belongs to one rotor angle. `force` (rows, 2) is the external force on the sleeve. `share` receives the tooth
-    forces, and `places` receives the rotation and the displacement of the sleeve. On entry, the first entry of `places`
-    holds the start value of the displacement. If a row has no balance, its number of iterations is negative, and the
-    later rows are not computed.
+    `force` (rows, 2) is external; the first entry of `places` holds the start value. A row without balance has a
+    negative number of iterations, and the rows after it are not computed.
     """
     for row in range(interference.shape[0]):
         before = max(row - 1, 0)
@@ -329,12 +306,10 @@ def floating_rows(
 
 
 def largest_value(angles: FloatArray, values_at: Callable[[FloatArray], FloatArray]) -> float:
-    """Find the largest value at evenly spaced rotor angles [rad] and between these angles.
+    """Largest of `values_at` at evenly spaced rotor angles [rad] and between them.
 
-    `values_at` takes rotor angles and returns one value per angle. Each tooth causes its own peak. If few teeth are
-    loaded, such a peak is narrower than a pitch and may lie between the given angles. Two searches with finer steps
-    therefore look for larger values near the local maxima. A local maximum is skipped if it is too low: a finer search
-    is expected to add at most half of the difference between the local maximum and the lower neighbouring value.
+    With few loaded teeth peaks are narrower than a pitch, so local maxima are searched twice more finely, except those
+    that would have to gain more than half of their height over the lower neighbour.
     """
     coarse, step = values_at(angles), angles[1] - angles[0]
     places = angles[:, None] + step * np.array([-1.0, 0.0, 1.0])
@@ -370,10 +345,7 @@ class ToothLoads:
 
 
 def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions) -> FloatArray:
-    """Compute the lead of each tooth, which is the length by which the tooth is ahead [m] (Eq. C7).
-
-    The lead equals the interference of the tooth if the mesh is not rotated and the sleeve is not displaced.
-    """
+    """Lead of each tooth, its interference without rotation of the mesh and displacement of the sleeve [m] (Eq. C7)."""
     ahead = tangential_displacement(mesh, teeth)
     if coupling.pitch_errors is not None:
         ahead += coupling.pitch_errors
@@ -381,18 +353,12 @@ def interference_at_rest(coupling: Coupling, mesh: MeshMotion, teeth: ToothPosit
 
 
 def elastic_rotation(coupling: Coupling, torque: float) -> float:
-    """Return T/(r_o c_t) [m].
-
-    This is the rotation, as a length at the pitch radius, if a single tooth carries the torque.
-    """
+    """T/(r_o c_t) [m]: the rotation, at the pitch radius, if a single tooth carries the torque."""
     return torque / (pitch_radius(coupling) * coupling.tooth_stiffness)
 
 
 def centred_loads(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, torque: float) -> ToothLoads:
-    """Compute the tooth loads with a sleeve that is held centred on the hub (Eq. C7).
-
-    `torque`: torque, not negative [N m].
-    """
+    """Tooth loads with a sleeve that is held centred on the hub; torque >= 0 (Eq. C7)."""
     ahead = interference_at_rest(coupling, mesh, teeth)
     rows = ahead.shape[0]
     displacement, iterations = np.zeros((rows, 2)), np.zeros(rows, dtype=np.int64)
@@ -406,10 +372,9 @@ def centred_loads(coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, t
 def floating_loads(
     coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, torque: float, force: FloatArray
 ) -> ToothLoads:
-    """Compute the tooth loads with a floating sleeve under an external force [N] (Eq. C7).
+    """Tooth loads with a floating sleeve under an external force [N]; torque > 0 (Eq. C7).
 
-    The number of iterations is negative in a row without balance. In such a row the external force exceeds the lateral
-    force that the teeth can hold at this torque. `torque`: torque, positive [N m].
+    A row in which the teeth cannot hold the force has a negative number of iterations.
     """
     unit = elastic_rotation(coupling, torque)
     unit_force = unit * coupling.tooth_stiffness
@@ -426,10 +391,9 @@ def floating_loads(
 def mesh_loads(
     coupling: Coupling, mesh: MeshMotion, teeth: ToothPositions, torque: float, *, floating: bool
 ) -> ToothLoads:
-    """Compute the tooth loads of one mesh without external force.
+    """Tooth loads of one mesh without external force.
 
-    Raises NoSolution (`sleeve_balance`) if a floating sleeve cannot be balanced. The residual in NoSolution is the
-    lateral force of the teeth on the sleeve, divided by T/r_o.
+    Raises NoSolution (`sleeve_balance`) with the unbalanced lateral force over T/r_o.
     """
     if not floating or torque == 0.0:
         return centred_loads(coupling, mesh, teeth, torque)
@@ -472,15 +436,12 @@ def load_distribution(inputs: CouplingInputs, geometry: Geometry, mesh: MeshMoti
 
 
 def coaxial_limit(coupling: Coupling, torque: float, friction: float) -> float:
-    """Compute the axial thrust that arises if all teeth slide in the same direction [N] (Eq. C20)."""
+    """Axial thrust if all teeth slide the same way: F_max = mu T/(r_o cos alpha) [N] (Eq. C20)."""
     return friction * torque / (pitch_radius(coupling) * cos(coupling.pressure_angle))
 
 
 def allowable_misalignment(speed: float, radius: float) -> float | None:
-    """Compute the misalignment at which the sliding velocity reaches its limit (Eq. C29).
-
-    Returns misalignment 0.12/(omega r_o) [rad]; None if no angle up to 90 degrees reaches the limit.
-    """
+    """Misalignment 0.12/(omega r_o) at the sliding velocity limit [rad]; None above 90 degrees (Eq. C29)."""
     rolling = abs(speed) * radius
     return SLIDING_VELOCITY_LIMIT / rolling if pi / 2 * rolling > SLIDING_VELOCITY_LIMIT else None
 
@@ -491,10 +452,9 @@ def sleeve_centring_torque(coupling: Coupling, radius: float) -> float:
 
 
 def unloading_misalignment(inputs: CouplingInputs, geometry: Geometry) -> float:
-    """Compute the misalignment at which the first tooth of a centred sleeve unloads [rad] (Eq. C10).
+    """Misalignment delta_L at which the first tooth of a centred sleeve unloads [rad] (Eq. C10).
 
-    The peak-to-peak tangential displacement grows with the square of the misalignment. At delta_L this displacement
-    reaches 2 F_m/c_t, where F_m is the mean tooth force. With tangential kinematics delta_L = sqrt(4 F_m/(c_t R_t)).
+    There the peak-to-peak displacement, which grows with its square, is 2 F_m/c_t: tangential, sqrt(4 F_m/(c_t R_t)).
     """
     coupling, operation = inputs.coupling, inputs.operation
     mean_force = operation.torque / (geometry.pitch_radius * coupling.teeth)
@@ -503,10 +463,7 @@ def unloading_misalignment(inputs: CouplingInputs, geometry: Geometry) -> float:
 
 
 def limits(inputs: CouplingInputs, geometry: Geometry) -> Limits:
-    """Compute the limits and the stiffness of one mesh (Eq. C31).
-
-    The torsional stiffness is z c_t r_o^2, and the lateral stiffness is z c_t/(2 cos^2 alpha).
-    """
+    """Limits and stiffness of one mesh: torsional z c_t r_o^2, lateral z c_t/(2 cos^2 alpha) (Eq. C31)."""
     coupling, radius = inputs.coupling, geometry.pitch_radius
     all_teeth = coupling.teeth * coupling.tooth_stiffness
     return Limits(

@@ -32,11 +32,11 @@ class Corner:
 
 
 def corners(network: Network, cooling: Cooling) -> list[Corner]:
-    """List the corners of all that is neither stated nor measured; empty if everything is (Eq. H21).
+    """Corners of all that is neither stated nor measured; empty if everything is (Eq. H21).
 
-    Wetting share, fling-off factor, rewetting share and windage vary where they are not given, each over a range that
-    contains its nominal value. Jets out of the mesh are also tried into the mesh, because published experience above
-    100 m/s contradicts the model on which direction cools better. A measured temperature varies by 3 K.
+    Wetting, rewetting, fling-off and windage vary over a range around their nominal values, a measured temperature by 3
+    K. Jets out of the mesh are also tried into it: experience above 100 m/s contradicts the model on which cools
+    better.
     """
     measured, spray = cooling.measured, network.spray
     unknown = {
@@ -66,10 +66,7 @@ def _around(nominal: float, ends: Sequence[float], stated: float | None, measure
 
 
 def flank_cases(network: Network, cooling: Cooling, nominal: FloatArray) -> tuple[tuple[float, float], ...]:
-    """Compute the flank temperatures of pinion and wheel [K] in the nominal case and at every corner of the band.
-
-    `nominal` holds the temperature rises of the nodes in the nominal case [K].
-    """
+    """Flank temperatures of pinion and wheel [K], nominal (`nominal`: rises of the nodes [K]) and at every corner."""
     rises = [nominal]
     rises += [equilibrium(_measured_again(corner, cooling), nominal).rises for corner in corners(network, cooling)]
     inlet = network.oil.inlet
@@ -89,10 +86,7 @@ def _measured_again(corner: Corner, cooling: Cooling) -> Network:
 
 
 def _fitted_again(network: Network, node: str, temperature: float, drain: float | None) -> Network:
-    """Return the network with the wetting share at which `node` has the given `temperature` [K].
-
-    If no wetting share gives this temperature, the network gets the share that comes closest.
-    """
+    """Network whose `node` has the given `temperature` [K], or comes closest to it by the wetting share."""
     try:
         return with_rotor(network, node, temperature, drain)
     except InvalidInput:
@@ -105,10 +99,7 @@ def _fitted_again(network: Network, node: str, temperature: float, drain: float 
 def flank_band(
     cases: tuple[tuple[float, float], ...], cooling: Cooling
 ) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return the lowest and the highest temperature [K] of each gear's flank.
-
-    The band of a measured gear is never narrower than 3 K to both sides.
-    """
+    """Lowest and highest temperature [K] of each flank; at least 3 K to both sides of a measured gear."""
     bands = []
     for gear, name in enumerate(("pinion", "wheel")):
         values = [case[gear] for case in cases]

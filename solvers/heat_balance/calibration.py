@@ -43,11 +43,10 @@ def oil_flows(network: Network, rises: FloatArray) -> FloatArray:
 
 
 def with_drain(network: Network, drain: float) -> Network:
-    """Fit the other losses so that the oil in the drain has the measured temperature; return the fitted network.
+    """Network whose other losses give the drained oil its measured temperature (Eq. H20).
 
-    Eq. H20. Returns the network with fitted other losses, which are never negative: where the calculated losses alone
-    warm the drain further, the other losses are 0 and the measured temperature is not met. Raises InvalidInput:
-    `measured_unreachable` if the oil in the drain is not warmer than the supplied oil.
+    Never negative: where the calculated losses alone warm the drain further, they are 0 and the temperature is not met.
+    Raises InvalidInput: `measured_unreachable` if the drain is not warmer than the supply.
     """
     wanted = drain - network.oil.inlet
     if wanted <= 0.0:
@@ -74,11 +73,10 @@ def with_drain(network: Network, drain: float) -> Network:
 
 
 def with_rotor(network: Network, node: str, temperature: float, drain: float | None = None) -> Network:
-    """Return the network with the wetting share at which a node of a gear has the measured temperature (Eq. H19).
+    """Network whose wetting share gives a node of a gear its measured temperature (Eq. H19).
 
-    `drain`: measured temperature of the oil in the drain; if given, the other losses are fitted to this temperature
-    [K]. Raises InvalidInput: `measured_unreachable` if no share from 0.02 to 1 gives this temperature; the message
-    states the reachable range.
+    With a measured `drain` [K] the other losses are fitted too. Raises InvalidInput: `measured_unreachable`, with the
+    reachable range, if no share from 0.02 to 1 does.
     """
     place, wanted = network.nodes.index(node), temperature - network.oil.inlet
     fitted = _fitted(network, place, wanted, None if drain is None else drain - network.oil.inlet)
@@ -112,16 +110,10 @@ def with_rotor(network: Network, node: str, temperature: float, drain: float | N
 
 
 def _fitted(network: Network, place: int, wanted: float, drain: float | None) -> Network | None:
-    """Return the network in which a node has the temperature rise `wanted` [K]; None if there is no solution.
+    """Network whose node `place` has the rise `wanted` [K], and with `drain` the drained oil that rise [K]; or None.
 
-    The wetting share is fitted to the temperature rise of the node with the index `place`. If `drain` is given, the
-    other losses are fitted as well, so that the oil in the drain has the temperature rise `drain` [K]. There is no
-    solution in these cases:
-
-    - Newton's method does not converge.
-    - The wetting share lies outside the range from 0.02 to 1.
-    - The network has no equilibrium with the fitted wetting share or with the wetting share 1.
-    - In the equilibrium with the fitted wetting share, the temperature rise of the node is not `wanted`.
+    None if Newton's method does not converge or leaves shares of 0.02 to 1, or if there is no equilibrium with the
+    fitted share or with 1, or if it misses `wanted`.
     """
     try:
         start = equilibrium(wetted(network, MOST_WETTING)).rises

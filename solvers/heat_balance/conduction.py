@@ -4,11 +4,7 @@ from math import pi
 
 
 def tooth_conductance(teeth: int, face_width: float, module: float, height: float, conductivity: float) -> float:
-    """Compute the conductance from the loaded flanks of a gear to the middle of its teeth [W/K].
-
-    Eq. H15: K = z b H k/(pi m_n/4); the heat flows through half the thickness of a tooth. `conductivity`: thermal
-    conductivity of the gear [W/(m K)].
-    """
+    """Conductance z b H k/(pi m_n/4) from the loaded flanks to the middle of the teeth [W/K] (Eq. H15)."""
     return teeth * face_width * height * conductivity / (pi * module / 4)
 
 

@@ -8,27 +8,21 @@ AIR_HEAT = 1006.0  # J/(kg K)
 
 
 def rim_convection(speed: float, radius: float) -> float:
-    """Compute the heat transfer coefficient of the rim, which is a rotating cylinder [W/(m^2 K)].
+    """Heat transfer coefficient 3.75 omega^0.7 r_a^0.4 of the rim, a rotating cylinder; speed > 0 (Eq. H16).
 
-    Eq. H16: 3.75 omega^0.7 r_a^0.4, after Jungnickel. The result agrees with the formula of Becker within 12 %.
-    `speed`: speed of the gear, positive [rad/s]. Returns heat transfer coefficient [W/(m^2 K)].
+    In W/(m^2 K), after Jungnickel; agrees with Becker within 12 %.
     """
     return float(3.75 * speed**0.7 * radius**0.4)
 
 
 def face_convection(speed: float, radius: float) -> float:
-    """Compute the heat transfer coefficient of a face, which is a rotating disc [W/(m^2 K)].
+    """Heat transfer coefficient 2.73 omega^0.8 r_a^0.6 of a face, a rotating disc; speed > 0 (Eq. H16).
 
-    Eq. H16: 2.73 omega^0.8 r_a^0.6, after Jungnickel. The result agrees with the formula for a free disc within 5 %.
-    `speed`: speed of the gear, positive [rad/s]. Returns heat transfer coefficient [W/(m^2 K)].
+    In W/(m^2 K), after Jungnickel; agrees with the free disc within 5 %.
     """
     return float(2.73 * speed**0.8 * radius**0.6)
 
 
 def recovery_rise(speed: float, radius: float, recovery: float = RECOVERY) -> float:
-    """Compute the temperature rise that air friction at the tooth tips causes in the mist [K].
-
-    Eq. H16: 0.88 (omega r_a)^2/(2 c_p), where c_p is the specific heat of air. `speed`: speed of the gear, positive
-    [rad/s].
-    """
+    """Rise 0.88 (omega r_a)^2/(2 c_p) of the mist by air friction at the tooth tips [K] (Eq. H16)."""
     return recovery * (speed * radius) ** 2 / (2 * AIR_HEAT)

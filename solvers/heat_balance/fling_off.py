@@ -39,21 +39,16 @@ class TurningTeeth:
 
 
 def turning_teeth(teeth: int, face_width: float, module: float, radius: float, speed: float) -> TurningTeeth:
-    """Describe the flanks that a jet wets: both flanks of every tooth, over the whole tooth height of 2.25 m_n.
-
-    Eq. H1: A = 2 z b H, H = 2.25 m_n. `speed`: speed of the gear, positive [rad/s].
-    """
+    """Flanks that a jet wets, both of every tooth: A = 2 z b H, H = 2.25 m_n (Eq. H1)."""
     height = TOOTH_HEIGHT * module
     return TurningTeeth(2 * teeth * face_width * height, height, radius, speed)
 
 
 def heat_number(film: float, turn: float) -> float:
-    """Compute the dimensionless heat that a film takes from the flank in one turn [-] (Eq. H2).
+    """Heat q that a film h0' (`film`) takes in a turn t' (`turn`) over sqrt(k rho c t*) per area and kelvin (Eq. H2).
 
-    Here h0' is `film` and t' is `turn`. There are three limiting cases. A thin film reaches the temperature of the
-    wall: q = h0'. In a short turn the film acts as a half space: q = 2 sqrt(t'/pi). For a thick film and a long turn a
-    similarity solution gives q = 0.98. The closed form joins these three limiting cases, and agrees with numerical
-    solutions within 2.5 %. Returns heat per area, kelvin and turn, divided by sqrt(k rho c t*) [-].
+    Joins three limits within 2.5 % of numerical solutions: thin film q = h0'; short turn (half space) q = 2
+    sqrt(t'/pi); thick film and long turn (similarity) q = 0.98.
     """
     short = 2 * sqrt(turn / pi)
     unlimited = short**TIME_POWER + LONG_TURN**TIME_POWER
@@ -61,20 +56,16 @@ def heat_number(film: float, turn: float) -> float:
 
 
 def fling_off_time(oil: CoolingOil, teeth: TurningTeeth, temperature: float) -> float:
-    """Compute the time t* after which the heat of the flank has passed through the whole film [s].
+    """Time t* = sqrt(nu H/(a r))/omega after which the heat has passed through the whole film [s] (Eq. H3).
 
-    Eq. H3: t* = sqrt(nu H/(a r))/omega. At the time t*, the rotation has thinned the film at x = H to the thickness
-    sqrt(a t*). By this time, the heat of the flank has reached a layer of the same thickness.
+    The rotation has then thinned the film at x = H to sqrt(a t*), the depth that the heat has reached.
     """
     viscosity = oil.viscosity(temperature) / oil.density
     return sqrt(viscosity * teeth.height / (oil.diffusivity * teeth.radius)) / teeth.speed
 
 
 def laid_film(teeth: TurningTeeth, flow: float) -> float:
-    """Compute the thickness of the film that the jets lay on the flanks in one turn [m].
-
-    Eq. H4: h0 = Q_i/(A_i omega/2 pi).
-    """
+    """Thickness h0 = Q_i/(A_i omega/2 pi) of the film that the jets lay on the flanks in one turn [m] (Eq. H4)."""
     return flow / (teeth.area * teeth.turns)
 
 
@@ -82,10 +73,9 @@ def laid_film(teeth: TurningTeeth, flow: float) -> float:
 class FlingOff:
     """Cooling of one gear by its oil film.
 
-    `film` [m] is the thickness of the film that the jets lay in one turn, and `conductance` [W/K] is the conductance of
-    this film. `flooded` [W/K] is the conductance of a film so thick that more oil would not take more heat. `turn_film`
-    [m] is the thickness of a film whose conductance is 90 % of `flooded`. `limited` is true if `conductance` is at
-    least 98 % of the heat capacity of the oil flow; `conductance` cannot exceed this heat capacity.
+    `film` [m] is laid in one turn, `turn_film` [m] has 90 % of the conductance `flooded` [W/K] of a film that more oil
+    does not help. `limited`: `conductance` [W/K] is at least 98 % of the heat capacity of the flow, which it cannot
+    exceed.
     """
 
     conductance: float
@@ -96,10 +86,9 @@ class FlingOff:
 
 
 def fling_off(oil: CoolingOil, teeth: TurningTeeth, flow: float, factor: float, flank: float) -> FlingOff:
-    """Compute the cooling of both flanks of a gear by the oil film.
+    """Cooling of both flanks: G = f omega/(2 pi) A sqrt(k rho c t*) q(h0', t'), at most rho c Q_i (Eq. H5).
 
-    Eq. H5: G = f omega/(2 pi) A sqrt(k rho c t*) q(h0', t'), but at most rho c Q_i. `flooded` is G for h0' = 50,
-    without the limit rho c Q_i.
+    `flooded` is G for h0' = 50 without that limit.
     """
     time = fling_off_time(oil, teeth, (flank + oil.inlet) / 2)
     length, turn = sqrt(oil.diffusivity * time), 1 / (teeth.turns * time)

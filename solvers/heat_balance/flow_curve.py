@@ -51,10 +51,7 @@ def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
 
 
 def _solved(network: Network, start: FloatArray | None) -> tuple[FloatArray | None, tuple[float, float, float]]:
-    """Return the temperature rises [K] of all nodes, and the rises of pinion flank, wheel flank and drain.
-
-    If there is no equilibrium, return None and three times NaN.
-    """
+    """Rises [K] of all nodes, and of pinion flank, wheel flank and drain; None and NaN without equilibrium."""
     try:
         rises = equilibrium(network, start).rises
     except NoSolution:

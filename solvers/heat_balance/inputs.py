@@ -327,12 +327,7 @@ class Cooling:
         return replace(used, other=self.other or None) != plain
 
     def check(self) -> None:
-        """Refuse inputs that exclude each other.
-
-        Raises InvalidInput: `exclusive` if measured temperatures are given for both the flank and the body of one gear.
-        Also `exclusive` if the wetting share is given together with a measured temperature of a gear, or if the other
-        losses are given together with a measured temperature of the drain.
-        """
+        """Refuse (`exclusive`) two measurements of one gear, or shares and losses given besides measurements."""
         measured = self.measured
         for gear in ("pinion", "wheel"):
             if {f"{gear}_flank", f"{gear}_body"} <= set(measured.rotors):

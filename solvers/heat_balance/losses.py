@@ -85,10 +85,9 @@ def share_to_pinion(
 
 
 def windage(pitch_line_velocity: float, diameter: float, face_width: float, module: float, speed: float) -> float:
-    """Compute the windage loss of one gear with the formula of Mauz [W].
+    """Windage of one gear by Mauz, the lowest of three published formulas [W] (Eq. H8).
 
-    Eq. H8: the torque is 1.37e-9 v^1.9 d^1.6 b^0.52 m_n^0.69 N m, with lengths in mm. Of three published formulas, this
-    formula gives the lowest loss. `speed`: speed of the gear, positive [rad/s].
+    The torque is 1.37e-9 v^1.9 d^1.6 b^0.52 m_n^0.69 N m, with lengths in mm.
     """
     sizes = (diameter * 1e3) ** 1.6 * (face_width * 1e3) ** 0.52 * (module * 1e3) ** 0.69
     return float(1.37e-9 * pitch_line_velocity**1.9 * sizes * speed)
@@ -120,8 +119,8 @@ def flow_by_rise(oil: CoolingOil, losses: float, rise: float) -> float:
 
 
 def ts_6336_22_bulk_rise(loss: float, centre_distance: float, face_width: float, supply_factor: float) -> float:
-    """Estimate the difference between bulk and oil temperature by ISO/TS 6336-22, for gears without tip relief.
+    """Bulk over oil temperature by ISO/TS 6336-22, without tip relief [K] (Eq. H13).
 
-    Eq. H13: 7400 (P mu H_v/(a b))^0.72 X_S/1.2, where the loss P mu H_v is in kW and the lengths are in mm.
+    7400 (P mu H_v/(a b))^0.72 X_S/1.2, with the loss in kW and lengths in mm.
     """
     return float(7400 * (loss * 1e-3 / (centre_distance * face_width * 1e6)) ** 0.72 * supply_factor / 1.2)

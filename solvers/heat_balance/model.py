@@ -214,10 +214,7 @@ def _cooled(gear: GearGeometry, pumping: float) -> CooledGear:
 def _cases(
     network: Network, cooling: Cooling, state: Equilibrium
 ) -> tuple[tuple[tuple[float, float], ...], tuple[Notice, ...]]:
-    """Return the flank temperatures of both gears in the nominal case and at the corners of the band.
-
-    Without a band, return the nominal case only. If a band is requested but there is none, a notice says why.
-    """
+    """Flank temperatures of both gears, nominal and at the corners of the band; else a notice why there is none."""
     inlet = network.oil.inlet
     nominal = ((inlet + float(state.rises[FLANKS[0]]), inlet + float(state.rises[FLANKS[1]])),)
     if not cooling.band:
@@ -299,10 +296,7 @@ def _estimates(inputs: HeatBalanceInputs) -> BulkEstimates:
 
 
 def _deviation(network: Network, cooling: Cooling, rises: FloatArray) -> float | None:
-    """Return the calculated minus the measured temperature of the wheel [K].
-
-    Return None unless the temperatures of both gears were measured.
-    """
+    """Calculated minus measured temperature of the wheel [K]; None unless both gears were measured."""
     rotors = list(cooling.measured.rotors.items())
     if len(rotors) < 2:
         return None

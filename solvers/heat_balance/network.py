@@ -63,8 +63,7 @@ class CooledGear:
 class Spray:
     """Oil of the jets: flow [m^3/s], velocities [m/s], shares, and factor of the fling-off cooling.
 
-    `velocity` is the pitch-line velocity of the gears. `jet` is the velocity of the jet. `jet` is positive if the jet
-    is directed into the mesh, and negative if the jet is directed against the teeth that leave the mesh.
+    `velocity` is the pitch-line velocity; `jet` is positive into the mesh, negative against the teeth that leave it.
     """
 
     flow: float
@@ -92,10 +91,7 @@ class CasingWalls:
 
 
 class Flow(NamedTuple):
-    """A heat flow in the network: its power [W], and the name of the carrier of the heat.
-
-    The heat flows from the place with the index `origin` to the place with the index `target` (see `Network.places`).
-    """
+    """Heat flow [W] between places (indices, see `Network.places`), with the name of its carrier."""
 
     origin: int
     target: int
@@ -105,11 +101,7 @@ class Flow(NamedTuple):
 
 @dataclass(frozen=True)
 class Network:
-    """The network of a gear pair or gear unit, with its losses [W].
-
-    `windage` is the windage loss of both gears together. `other` is the sum of all losses that the model does
-    not compute. `windage` and `other` heat the mist.
-    """
+    """The network of a gear pair or unit with its losses [W]; `windage` (both gears) and `other` heat the mist."""
 
     oil: CoolingOil
     gears: tuple[CooledGear, CooledGear]
@@ -153,10 +145,7 @@ class Network:
 
     @cached_property
     def _coolings(self) -> dict[tuple[int, float], FlingOff]:
-        """Cache of the fling-off cooling.
-
-        A Jacobian by finite differences asks for the cooling many times, but only at a few flank temperatures.
-        """
+        """Cache of the fling-off cooling: a Jacobian asks many times at few flank temperatures."""
         return {}
 
     def cooling(self, gear: int, rises: FloatArray) -> FlingOff:
@@ -175,10 +164,7 @@ class Network:
         return {}
 
     def operation(self, number: int, outlet: float) -> tuple[float, float]:
-        """Return the friction power [W] and the oil flow [m^3/s] of a bearing.
-
-        `number` is the index of the bearing. `outlet` [K] is the temperature rise of the oil that leaves the bearing.
-        """
+        """Friction power [W] and oil flow [m^3/s] of a bearing at the rise `outlet` [K] of its oil."""
         operation = self._operations.get((number, outlet))
         if operation is None:
             viscosity = self.oil.viscosity(self.film_temperature(number, outlet))
@@ -215,10 +201,9 @@ class Network:
         return np.asarray(incoming - np.bincount([flow.origin for flow in flows], powers, places))
 
     def _sources(self, gear: int, rises: FloatArray) -> Iterator[Flow]:
-        """Yield the heat flows that one gear produces: mesh friction, pumping of gas, and acceleration of oil.
+        """Heat flows that one gear produces: mesh friction, pumping of gas, acceleration of oil.
 
-        A share of the heat from pumping enters the teeth. Half of this share goes to the flank, and the other half goes
-        to the body. The rest of the heat from pumping goes to the mist.
+        The teeth's share of the pumping heat goes half to the flank and half to the body, the rest to the mist.
         """
         source, flank, body = self.size + 2, FLANKS[gear], BODIES[gear]
         flanks = self.oil.inlet + float(rises[FLANKS[0]] + rises[FLANKS[1]]) / 2
@@ -232,10 +217,7 @@ class Network:
         yield Flow(source, MIST, thrown, "oil brought to speed")
 
     def _oil_cooling(self, gear: int, rises: FloatArray) -> Iterator[Flow]:
-        """Yield the heat flows from flank and body of a gear to the oil, and from the flank to the body.
-
-        The oil comes partly from the jets, and partly out of the mist.
-        """
+        """Heat flows from flank and body to the oil of jets and mist, and from the flank to the body."""
         flank, body, mist = float(rises[FLANKS[gear]]), float(rises[BODIES[gear]]), float(rises[MIST])
         cooling, tooth = self.cooling(gear, rises), self.gears[gear].to_body
         side = cooling.conductance / 2
@@ -249,10 +231,7 @@ class Network:
         yield Flow(BODIES[gear], MIST, rewetting * (body - mist), "oil out of the mist")
 
     def _mist_convection(self, gear: int, rises: FloatArray) -> Iterator[Flow]:
-        """Yield the heat flows from the mist to the rim and the faces of a gear.
-
-        Friction at the tooth tips makes the mist near the gear warmer than the other mist.
-        """
+        """Heat flows from the mist, which tip friction warms near the gear, to its rim and faces."""
         flank, body, mist = float(rises[FLANKS[gear]]), float(rises[BODIES[gear]]), float(rises[MIST])
         wheel = self.gears[gear]
         rise = recovery_rise(wheel.flanks.speed, wheel.tip_radius, self.recovery)
@@ -272,10 +251,7 @@ class Network:
         yield Flow(body, node, journal.shaft_conductance * (float(rises[body]) - outlet), "shaft")
 
     def film_temperature(self, number: int, outlet: float) -> float:
-        """Return the film temperature of a bearing, between feed and outlet [K].
-
-        `outlet` [K] is the rise of the oil that leaves the bearing over the supply of the gears.
-        """
+        """Film temperature of a bearing [K], between feed and outlet; `outlet` is a rise over the gears' supply."""
         feed = self._feeds[number]
         return self.oil.inlet + feed + self.bearing_film_share * (outlet - feed)
 

@@ -45,11 +45,7 @@ def heat_notices(network: Network, rises: FloatArray, cooling: Cooling) -> Itera
 def measured_notices(
     network: Network, cooling: Cooling, drain: float, wheel_deviation: float | None
 ) -> Iterator[Notice]:
-    """Yield warnings about measured temperatures that the heat balance contradicts, with the size of the contradiction.
-
-    `drain` [K] is the calculated temperature of the drained oil, and `wheel_deviation` [K] the calculated less the
-    measured temperature of the second measured gear.
-    """
+    """Warnings about measured temperatures that the balance contradicts; `drain` is calculated, deviations [K]."""
     measured = cooling.measured
     if measured.drain is not None and drain - measured.drain > MEETS:
         message = (

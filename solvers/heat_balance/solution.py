@@ -26,13 +26,11 @@ class Equilibrium:
 
 
 def equilibrium(network: Network, start: FloatArray | None = None) -> Equilibrium:
-    """Find the temperatures at which every node of the network gains as much heat as it loses [W] (Eq. H18).
+    """Temperatures at which every node of the network gains as much heat as it loses (Eq. H18).
 
-    J is the Jacobian of the residual. The equilibrium is stable if -J is an M-matrix. This means two things: no element
-    of -J off the diagonal is positive, and every node becomes warmer when every node gains a little more heat. If all
-    row sums of -J are positive, there is no second equilibrium. If hot flanks get little oil, a row sum may be
-    negative. A second equilibrium is then possible, but the function does not search for it. Raises NoSolution:
-    `heat_balance` if the iteration does not converge; `thermal_runaway` if the equilibrium is not stable.
+    Stable if the Jacobian's negative is an M-matrix. Row sums that are all positive exclude a second equilibrium; with
+    hot flanks and little oil one is possible and not searched for. Raises NoSolution: `heat_balance` without
+    convergence, `thermal_runaway` if not stable.
     """
     rises = np.zeros(network.size) if start is None else np.array(start, dtype=float)
     residual = network.residual(rises)
@@ -63,10 +61,7 @@ def jacobian(network: Network, rises: FloatArray, residual: FloatArray) -> Float
 def _descend(
     network: Network, step: FloatArray, rises: FloatArray, residual: FloatArray
 ) -> tuple[FloatArray, FloatArray, float]:
-    """Halve the step until the residual falls. If the step is within tolerance, the residual need not fall.
-
-    Returns the new temperature rises, the new residual, and the fraction of the original step that was taken.
-    """
+    """Halve the step until the residual falls, unless it is within tolerance; return rises, residual, share taken."""
     size, share = float(np.abs(residual).max()), 1.0
     final = float(np.abs(step).max()) <= TOLERANCE
     for _ in range(MOST_HALVINGS):
@@ -87,10 +82,7 @@ def _residual_where_defined(network: Network, rises: FloatArray) -> FloatArray |
 
 
 def _check_stability(network: Network, slopes: FloatArray) -> None:
-    """Raise NoSolution (`thermal_runaway`) if the equilibrium is not stable.
-
-    The equilibrium is stable if every node becomes warmer when every node gains one more watt.
-    """
+    """Raise NoSolution (`thermal_runaway`) unless every node becomes warmer when every node gains one more watt."""
     response = np.linalg.solve(-slopes, np.ones(network.size))
     if float(response.min()) <= 0.0:
         node = network.nodes[int(np.argmin(response))]

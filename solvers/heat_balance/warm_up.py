@@ -125,11 +125,7 @@ def _integrated(network: Network, capacity: FloatArray, begin: FloatArray, end: 
 
 
 def _time_95(times: FloatArray, rises: FloatArray, final: float) -> float | None:
-    """Return the time [s] after which the temperature of a node has made 95 % of its change.
-
-    After this time, the difference from the final temperature rise `final` [K] stays below 5 % of the whole change.
-    Returns None if there is no such time, or if the temperature of the node does not change.
-    """
+    """Time [s] after which a node stays within 5 % of its whole change; None if never, or without change."""
     left = np.abs(rises - final)
     outside = np.flatnonzero(left > (1 - WARM) * left[0])
     if outside.size == 0 or outside[-1] == times.size - 1:

@@ -86,11 +86,7 @@ def check_speed(pinion_speed: float) -> None:
 
 
 def refuse_cost(pinion_speed: float, parts: list[Stretch], excess: float) -> NoReturn:
-    """Raise InvalidInput for a calculation that needs `excess` times the permitted number of steps.
-
-    The code is narrow_land if the grooves leave a part of the face so narrow that its slices are very thin. Otherwise
-    the code is too_many_steps. The message says how to change the inputs.
-    """
+    """Raise InvalidInput for `excess` times the permitted steps: narrow_land between grooves, else too_many_steps."""
     narrowest, widest = min(part.width for part in parts), max(part.width for part in parts)
     if narrowest < NARROW * widest:
         land = min(part.width * part.cells for part in parts)

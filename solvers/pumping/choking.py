@@ -76,10 +76,7 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
 def _beyond_limit(
     mesh: Mesh, limit: float, radial: float | None, axial: float | None, inflow: float | None
 ) -> list[Notice]:
-    """Say which flows are not sonic up to the search limit, and for which of them this is doubtful.
-
-    The verdict follows the rule of a calculation at one speed, but the number of slices stays as it is.
-    """
+    """Say which flows are not sonic up to the search limit, and whether that is doubtful at this number of slices."""
     speeds = {"clearances": radial, "outflow": axial, "inflow": inflow}
     names = {"clearances": "radial gap", "outflow": "axial exit", "inflow": "axial inlet"}
     if all(speed is not None for speed in speeds.values()):
@@ -97,11 +94,9 @@ def _beyond_limit(
 
 
 class _Demand:
-    """Distance of a tooth space from choking, as a function of the logarithm of the pinion speed.
+    """Distance of a tooth space from choking over the logarithm of the pinion speed; at least 0: it chokes.
 
-    `radial` returns ln(p/p_c), where p is the largest pressure and p_c is the pressure at which the radial gap chokes.
-    `axial` and `inflow` return the logarithms of the Mach numbers of outflow and inflow at the ends. A result of at
-    least 0 means that the flow chokes there.
+    `radial` is ln(p/p_c) of the largest pressure, `axial` and `inflow` are logarithms of Mach numbers at the ends.
     """
 
     def __init__(self, mesh: Mesh, space: Space, slices: int) -> None:
@@ -129,10 +124,7 @@ class _Demand:
 
 
 def _scan(demands: list[_Demand], top: float) -> list[float]:
-    """Lower the pinion speed in steps until no tooth space chokes.
-
-    `top` is the logarithm of the highest speed. Return the logarithms of all speeds, in ascending order.
-    """
+    """Lower the speed from e^`top` until nothing chokes; return the logarithms of the speeds, ascending."""
     speeds = [top]
     while any(max(demand.excess(speeds[-1])) >= 0.0 for demand in demands):
         if len(speeds) > _STEPS_DOWN:
@@ -150,10 +142,7 @@ def _refuse_sealed(speed: float) -> NoReturn:
 
 
 def _find_lowest(demands: list[tuple[Excess, Excess]], scan: list[float]) -> float | None:
-    """Find the lowest pinion speed at which one of the tooth spaces chokes.
-
-    The flow on a coarse grid brackets the speed. The flow on a fine grid then refines the speed.
-    """
+    """Lowest pinion speed at which a space chokes, bracketed on a coarse grid and refined on a fine one."""
     roots = [(root, fine) for rough, fine in demands if (root := _find_coarse_root(rough, scan)) is not None]
     if not roots:
         return None

@@ -17,13 +17,11 @@ from solvers.pumping.space.stroke import StrokeTable
 def incompressible(
     gas: Gas, table: StrokeTable, face_width: float, pinion_speed: float, speed_ratio: float, discharge: float
 ) -> SpaceFlow:
-    """Compute the incompressible flow out of a single spur tooth space over one stroke.
+    """Incompressible flow out of a single spur tooth space over one stroke (Eq. P14).
 
-    Eq. P14: the gas has the same velocity U = -(dV/dt) / [C_d (2 S + L b)] in every opening, and p - p_e = rho U |U| /
-    2. Here S is the area and V is the volume of the space, L is the sum of both clearances, and b is the face width.
-    Returns the flow at the middle of each interval of the table. Temperatures are None: the model computes the work,
-    but it does not compute where the work heats the gas. Raises InvalidInput: incompressible_vacuum if the suction
-    would exceed the ambient pressure.
+    U = -(dV/dt)/[C_d (2 S + L b)] in every opening, p - p_e = rho U |U|/2. Values are at the middle of the intervals of
+    the table; no temperatures, because the model does not say where work becomes heat. Raises InvalidInput:
+    incompressible_vacuum.
     """
     time = (table.angle - table.angle[0]) / (pinion_speed * speed_ratio)
     step = np.diff(time)

@@ -45,9 +45,7 @@ class LeadCurves:
 class LeadCorrection:
     """Range of the thermal growth, and slope and crown of the correction [m].
 
-    A parabola is fitted to the correction by least squares. The slope is the rise of the parabola from the end that
-    meshes first to the other end. The crown is the height of the parabola in the middle of the face minus the
-    mean height at the ends.
+    Of the least-squares parabola: its rise from the end that meshes first, its middle above the mean of its ends.
     """
 
     range: float = quantity("range of the thermal growth", "C_r", unit="um")
@@ -61,10 +59,9 @@ class LeadCorrection:
 
 
 def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: FloatArray) -> LeadCorrection:
-    """Compute the lead correction for teeth that warm as much as the gas [m] (Eq. P12).
+    """Lead correction for teeth that warm as much as the gas; else times their share, known by measurement [m] (Eq.
 
-    If the teeth warm by only a share of the temperature rise of the gas, the correction must be multiplied by this
-    share. The share is known from measurements only.
+    P12).
     """
     strain = EXPANSION * temperature_rise
     radial = strain * pair.pinion_working_radius * sin(pair.working_pressure_angle)
@@ -82,10 +79,7 @@ def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: Floa
 
 
 def _elongation(position: FloatArray, strain: FloatArray) -> FloatArray:
-    """Return the growth in length [m] between the end z = 0 of the face and each position.
-
-    The strain is linear between two positions, and constant from the end z = 0 to the first position.
-    """
+    """Growth in length [m] from z = 0 to each position; the strain is linear between positions."""
     parts = 0.5 * (strain[1:] + strain[:-1]) * np.diff(position)
     elongation: FloatArray = strain[0] * position[0] + np.concatenate([[0.0], np.cumsum(parts)])
     return elongation

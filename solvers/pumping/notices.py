@@ -59,10 +59,7 @@ def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float
 
 
 def jump_notices(tables: Sequence[StrokeTable]) -> list[Notice]:
-    """Return a warning if the area of a tooth space jumps at some angle.
-
-    The jump changes the pressure in the model although the teeth do not move.
-    """
+    """Warning if the area of a tooth space jumps at some angle, which changes the pressure while the teeth rest."""
     share, angle = max(table.jump for table in tables)
     if share == 0.0:
         return []
@@ -75,10 +72,7 @@ def jump_notices(tables: Sequence[StrokeTable]) -> list[Notice]:
 
 
 def flow_notices(flow: Flow, largest_mach: float, largest_gauge_pressure: float) -> list[Notice]:
-    """Return a warning if the model does not resolve the flow.
-
-    `largest_gauge_pressure` is relative to the ambient pressure.
-    """
+    """Warning if the model does not resolve the flow. `largest_gauge_pressure` is relative to the ambient pressure."""
     if flow is Flow.INCOMPRESSIBLE and largest_mach > INCOMPRESSIBLE_MACH:
         message = (
             f"the Mach number is {largest_mach:.2f}; above {INCOMPRESSIBLE_MACH:g} the gas cannot be treated as "

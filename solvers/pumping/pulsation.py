@@ -23,10 +23,9 @@ class Pulsation:
 
 
 def pulsation(meshing_frequency: float, flows: list[tuple[SpaceFlow, float, float]]) -> Pulsation:
-    """Superpose the flows of successive tooth spaces and compute the harmonics of the mass flow [kg/s].
+    """Superpose the flows of successive spaces; amplitude of order k is 2 f_m |int m_dot exp(-2 pi i k f_m t) dt| (Eq.
 
-    Eq. P13: the amplitude of order k is 2 f_m |integral m_dot exp(-2 pi i k f_m t) dt|. The code computes the
-    exponential of order k as the k-th power of the exponential of order 1.
+    P13).
     """
     front = np.zeros(HARMONICS, dtype=complex)
     rear = np.zeros(HARMONICS, dtype=complex)

@@ -80,11 +80,9 @@ def resolution(gas: Gas, spaces: list[Grids]) -> Resolution:
 
 
 def behind_jumps(resolved: Resolution, gas: Gas, flows: list[SpaceFlow], jumps: list[float]) -> Resolution:
-    """Raise the uncertainties to at least the effect of jumps of the area.
+    """Raise the uncertainties to the effect of jumps of the area, which no resolution reduces.
 
-    A higher resolution does not reduce this effect. `compressed` returns the relative rise of the gas pressure that a
-    jump of the logarithm of the area causes. The effect on the Mach number is that of a wave with this pressure rise.
-    If the relative uncertainty of a pressure reaches 1, the uncertainty of every result is raised to at least 1.
+    The Mach number gets that of a wave of the pressure rise; if a pressure is uncertain by 1, so is every result.
     """
     peak, low, mach = resolved.peak_pressure, resolved.min_pressure, resolved.axial_mach
     shares = [compressed(gas, jump) for jump in jumps]
@@ -110,12 +108,10 @@ def compressed(gas: Gas, jump: float) -> float:
 
 
 def net_uncertainty(grids: Grids, jumped: float) -> float:
-    """Estimate the uncertainty of the net mass [kg] that passes an end of the tooth space in a stroke.
+    """Uncertainty of the net mass [kg] that passes an end in a stroke, from the flow at half the resolution.
 
-    The net mass is the difference between outflow and inflow. The estimate compares the flow with the flow at half the
-    resolution. Outflow and inflow may change with the resolution although their difference hardly changes. The
-    uncertainty is therefore at least the change of the outflow plus the change of the inflow. The uncertainty is also
-    at least the share `jumped` of all mass that passes the ends. Jumps of the area change the pressure by this share.
+    At least the changes of outflow and inflow together, which may cancel, and the share `jumped` of all mass that
+    passes.
     """
     here, there = grids.flow.ends, grids.halved.ends
     ends = ((here.front, there.front), (here.rear, there.rear))
@@ -126,10 +122,7 @@ def net_uncertainty(grids: Grids, jumped: float) -> float:
 
 
 def radial_uncertainty(grids: Grids, jumped: float) -> float:
-    """Estimate the uncertainty of the net mass [kg] that leaves the tooth space in radial direction in a stroke.
-
-    The estimate is at least the result of `net_uncertainty`.
-    """
+    """Uncertainty of the net mass [kg] that leaves radially in a stroke, at least that of `net_uncertainty`."""
     radial = SAFETY * abs(grids.flow.masses.radial - grids.halved.masses.radial)
     return max(radial, net_uncertainty(grids, jumped))
 
@@ -202,11 +195,9 @@ def _reaches(gas: Gas, grids: Grids) -> dict[str, float]:
 
 
 def _mach_reach(fine: SpaceFlow, half: SpaceFlow) -> float:
-    """Estimate how large the Mach number may become if the space is divided into more slices.
+    """How large the Mach number may become with more slices.
 
-    The Mach number is computed in the slices and at the ends of the space. At a choked end it is 1 on every grid. The
-    Mach number in the slices beside an end approaches the Mach number of the end as the slices get shorter. It may also
-    rise above the Mach number of the end, and the estimate takes this rise into account.
+    A choked end is at 1 on every grid; slices beside it approach 1 and may rise above it.
     """
     slices, end = float(fine.peak_mach.max()), fine.largest_mach
     if slices == end:
@@ -219,11 +210,7 @@ def _mach_reach(fine: SpaceFlow, half: SpaceFlow) -> float:
 
 
 def _profiles(gas: Gas, flow: SpaceFlow) -> dict[str, FloatArray]:
-    """Return two gauge pressures [Pa] and, if known, the temperature rise [K] in every slice.
-
-    The first gauge pressure is the largest in the stroke. The second is the amount by which the lowest pressure in the
-    stroke lies below the ambient pressure. The temperature rise is a mean over the stroke.
-    """
+    """Largest gauge pressure, depth below ambient [Pa] and mean temperature rise [K] of every slice in the stroke."""
     profiles = {
         "peak_pressure": flow.peak_pressure - gas.pressure,
         "min_pressure": gas.pressure - flow.lowest_pressure,
@@ -234,11 +221,7 @@ def _profiles(gas: Gas, flow: SpaceFlow) -> dict[str, FloatArray]:
 
 
 def _reach(position: FloatArray, here: FloatArray, coarse: FloatArray, there: FloatArray, times: float = RISE) -> float:
-    """Estimate how large the values over the face may become with more slices.
-
-    Every local peak has grown by a certain amount from the coarse to the fine grid. With more slices, every peak is
-    assumed to grow further by `times` this amount. The result is the largest of all peaks after this growth.
-    """
+    """Largest local peak over the face if every peak grows again by `times` its growth from the coarse grid."""
     edged = np.pad(here, 1, constant_values=-np.inf)
     tops = (here >= edged[:-2]) & (here >= edged[2:])
     around = np.pad(np.interp(position, coarse, there), 1, mode="edge")
@@ -247,19 +230,14 @@ def _reach(position: FloatArray, here: FloatArray, coarse: FloatArray, there: Fl
 
 
 def _relative(value: float, half: float, quarter: float) -> float:
-    """Estimate the relative uncertainty of a value from the values at half and a quarter of the resolution.
-
-    The result is the larger of two estimates: three times the difference from the value at half the resolution, and the
-    difference from the value at a quarter. If the error is of first order, both estimates are three times the error.
-    """
+    """Relative uncertainty: three times the difference from half the resolution, or that from a quarter if larger."""
     return max(SAFETY * abs(half / value - 1.0), abs(quarter / value - 1.0)) if value != 0.0 else 0.0
 
 
 def _of_three_grids(value: float, half: float, quarter: float) -> float:
-    """Estimate the relative uncertainty of a Mach number at an end of the face, by which choking is decided.
+    """Relative uncertainty of a Mach number by which choking is decided.
 
-    An error of first order is the difference from half the resolution, and half the difference between the coarser
-    grids. The larger of both counts, because two grids may agree by chance.
+    The difference from half the resolution, or half that between the coarser grids if larger: two may agree by chance.
     """
     if value == 0.0:
         return 0.0

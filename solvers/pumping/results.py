@@ -40,11 +40,7 @@ class MeshGeometry(Diameters):
 
 @record(equation="P2")
 class Stroke:
-    """One stroke of a tooth space.
-
-    Angles [rad] are angles of the gear to which the space belongs. The angle is 0 if the space is on the line of
-    centres. Areas are in [m^2].
-    """
+    """One stroke of a tooth space; angles of its gear [rad], 0 on the line of centres, areas in m^2."""
 
     start: float = quantity("start of the stroke", "φ_s", unit="deg", text="the mating tooth enters")
     contact_start: float = quantity("start of contact", "φ_A", unit="deg", text="the driving flanks touch")
@@ -59,9 +55,8 @@ class Stroke:
 class MassFlow:
     """Mass flow out of the tooth spaces of one gear [kg/s].
 
-    The first five values are the net flows through the five exits; their sum is 0, see `ExitMasses`. The next four
-    values are the outflow and the inflow at both ends of the face. The last two values are uncertainties of net flows.
-    The relative uncertainty can be large if the net flow is a small difference between outflow and inflow.
+    Net flows through the five exits, whose sum is 0 (`ExitMasses`), out- and inflow at both ends, uncertainties of net
+    flows.
     """
 
     front: float = quantity("net mass flow at the front", "m_f", unit="g_per_s", text="at the end that meshes first")
@@ -111,13 +106,9 @@ class Balance:
 
 @record(equation="P15")
 class Resolution:
-    """Relative uncertainties of the results due to the resolution.
+    """Relative uncertainties of the results due to slices, steps (pocket chain) or positions (incompressible).
 
-    The resolution is the number of slices in gas dynamics, of steps in the pocket chain, and of positions in the
-    incompressible model. Uncertainties of pressures are relative to the gauge pressure. A jump of the area of a tooth
-    space makes the pressure jump. All uncertainties are at least as large as this relative jump of the pressure.
-    `temperature_rise` is None if the flow model gives no temperatures. `MassFlow` contains the uncertainties of the net
-    flows.
+    Pressures are relative to gauge pressure; none is below the relative jump of the pressure by a jump of the area.
     """
 
     peak_pressure: float = quantity("uncertainty of the peak pressure", text="of the largest gauge pressure")
@@ -199,11 +190,7 @@ class EndOfFace:
 
 @record(equation="P9")
 class SpacesResult:
-    """Results of the spaces of one gear: power [W], work per space and stroke [J], mass flow [kg/s], temperatures [K].
-
-    Pressures are ratios to the ambient pressure. A value is None if the flow model does not give this value; a notice
-    then states that the value is missing.
-    """
+    """Results of the spaces of one gear; None, with a notice, for what the flow model does not give."""
 
     stroke: Stroke = quantity("stroke", text="one stroke")
     peak_pressure_ratio: float = quantity(
@@ -240,11 +227,7 @@ class SpacesResult:
 
 @record(equation="P9")
 class Totals:
-    """Power of the selected tooth spaces [W], meshing frequency [Hz], and axial speed of the meshing point [m/s].
-
-    `axial_meshing_mach` is `axial_meshing_speed` divided by the ambient speed of sound. For spur gears these two values
-    are None, because the whole face meshes at once.
-    """
+    """Power of the selected spaces, meshing frequency, axial speed of the meshing point (None for spur gears)."""
 
     pumping_power: float = quantity("pumping power", "P", unit="w")
     meshing_frequency: float = quantity("meshing frequency", "f_m", unit="hz")
@@ -261,12 +244,7 @@ class Totals:
 
 @record(equation="pumping#numerics")
 class Derived:
-    """Values derived from the inputs.
-
-    `centre_distance` is in [m]. `slices` is the number of slices over the whole face, including the grooves.
-    `rack_tip_radius` is the tip radius of the racks in normal modules. If the rack of at least one gear has no room for
-    the given tip radius, `rack_tip_radius` is the largest radius for which both racks have room.
-    """
+    """Values derived from the inputs."""
 
     centre_distance: float = quantity("centre distance used", "a", unit="mm", equation="L1")
     slices: int = quantity("slices asked for", "N_0", text="slices or pockets, those of the grooves included")
@@ -280,10 +258,10 @@ class Derived:
 
 @record(equation="P11")
 class Choking:
-    """Whether the flow becomes sonic, decided by refinement, over the spaces of all gears asked for.
+    """Whether the flow becomes sonic, over the spaces of all gears asked for.
 
-    A Mach number is given with its relative uncertainty; the verdict is "doubtful" exactly if this band contains 1. The
-    slices are doubled until no verdict is doubtful, or until the largest number that the speed allows is reached.
+    "doubtful" exactly if a Mach number's band contains 1; slices are doubled until none is, or the speed allows no
+    more.
     """
 
     outflow: ChokingWord = quantity("verdict on the outflow", text="at the ends of the face")

@@ -29,12 +29,7 @@ _ANGLES = 201  # number of angles at which fields are recorded, enough for figur
 
 @dataclass(frozen=True, slots=True)
 class Space:
-    """The tooth spaces of one gear.
-
-    `speed_ratio` is the speed of the gear divided by the speed of the pinion. The stroke begins first at the end of
-    the face that meshes first. At a distance d from this end, the stroke begins later: after the gear has turned by the
-    angle `lag` times d. The unit of `lag` is [rad/m].
-    """
+    """The tooth spaces of one gear; the stroke begins later by `lag` [rad/m] away from the end that meshes first."""
 
     of_pinion: bool
     table: StrokeTable
@@ -58,11 +53,7 @@ class Mesh:
 
 
 def prepare(setup: PumpingSetup) -> Mesh:
-    """Compute geometry and stroke tables, and warnings about both.
-
-    Raises InvalidInput if one of these functions refuses the setup: `check_setup`, `meshing_path`, `tooth_space` or
-    `stroke_table`.
-    """
+    """Geometry, stroke tables and warnings; raises what `check_setup`, `meshing_path` and the tables refuse."""
     check_setup(setup)
     path = meshing_path(setup.gears)
     wanted = setup.model.spaces
@@ -84,10 +75,7 @@ def derived(mesh: Mesh) -> Derived:
 
 
 def _active_share(space: Space, face_width: float) -> float:
-    """Compute the largest fraction of the face width on which a tooth space is in its stroke at one instant.
-
-    In a helical gear, the stroke begins and ends at another time at each position on the face.
-    """
+    """Largest share of the face width on which a tooth space is in its stroke at one instant."""
     limits, lag = space.table.limits, space.lag * face_width
     return min((limits.end - limits.start) / lag, 1.0) if lag > 0.0 else 1.0
 
@@ -128,12 +116,7 @@ def flow_at(
 
 
 def coarser_flow_at(mesh: Mesh, space: Space, pinion_speed: float, slices: int, times: int) -> SpaceFlow:
-    """Compute the same stroke as `flow_at`, but at a resolution that is `times` times lower.
-
-    Gas dynamics gets fewer slices and fewer recorded angles. The pocket chain gets fewer steps, but the same number of
-    pockets. The incompressible model gets fewer positions. Raises the errors of `flow_at` except too_many_steps and
-    narrow_land.
-    """
+    """The stroke of `flow_at` at a resolution `times` lower: slices and angles, steps of the chain, or positions."""
     if mesh.setup.model.flow is Flow.INCOMPRESSIBLE:
         return _single_pocket(mesh, space, pinion_speed, space.table.coarser(times))
     parts = face_stretches(mesh.setup, slices)
@@ -164,11 +147,7 @@ def _gas_ducts(mesh: Mesh, space: Space, pinion_speed: float, parts: list[Stretc
 
 
 def finest_slices(mesh: Mesh, pinion_speed: float, slices: int) -> int:
-    """Return the largest number of slices that the speed allows, at least `slices`.
-
-    The cost grows with the square of the number of slices. In the pocket chain and in the incompressible model, the
-    number is part of the model and stays.
-    """
+    """Largest number of slices that the speed allows; in chain and incompressible model, whose part it is, `slices`."""
     if mesh.setup.model.flow is not Flow.GAS_DYNAMICS:
         return slices
     cost = _largest_cost(mesh, pinion_speed, face_stretches(mesh.setup, slices))
@@ -208,10 +187,6 @@ def space_duct(mesh: Mesh, space: Space, pinion_speed: float, part: Stretch, *, 
 
 
 def _angles(mesh: Mesh, space: Space) -> FloatArray:
-    """Return the angles of the gear [rad] at which the flow in its tooth spaces is recorded.
-
-    At the first angle, the stroke begins where the face meshes first. At the last angle, the stroke ends on the other
-    side of the face.
-    """
+    """Angles of the gear [rad] at which its flow is recorded, from the first to the last stroke over the face."""
     limits = space.table.limits
     return np.linspace(limits.start, limits.end + space.lag * mesh.setup.gears.face_width, _ANGLES)

@@ -18,11 +18,7 @@ _COARSENINGS = {Flow.GAS_DYNAMICS: (1, 2, 4)}
 
 
 def speed_scan(setup: PumpingSetup, speeds: FloatArray) -> ChokingCurves:
-    """Return the largest pressure ratio and Mach numbers of the selected spaces at each pinion speed [rad/s].
-
-    All values are NaN at a speed without a solution. Raises InvalidInput, with the codes of `prepare`, if `prepare`
-    refuses the setup.
-    """
+    """Largest pressure ratio and Mach numbers of the spaces at each pinion speed [rad/s]; NaN without a solution."""
     mesh, limit = prepare(setup), CELL_STEP_LIMIT // speeds.size
     pressure, outflow, inflow = np.array([_point(mesh, float(speed), limit) for speed in speeds]).T
     return ChokingCurves(frozen(speeds), frozen(pressure), exit_mach=frozen(outflow), inflow_mach=frozen(inflow))

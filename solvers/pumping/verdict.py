@@ -62,10 +62,7 @@ Refined = Callable[[int, int], Bands]
 
 
 def decide(start: Sequence[Bands], slices: int, most: int, refined: Refined | None = None) -> Choking:
-    """Double the slices of every gear with a doubtful band, until none is left or `most` slices are reached.
-
-    `start` has the bands of every gear with `slices` slices. Without `refined` the number of slices stays.
-    """
+    """Double the slices of every gear with a doubtful band up to `most`; without `refined` they stay."""
     found, used = list(start), slices
     for index, of_gear in enumerate(start):
         latest, number = of_gear, slices
@@ -96,20 +93,14 @@ def _worst(gears: Sequence[Band]) -> Band:
 
 
 def on_grids(mesh: Mesh, space: Space, speed: float, slices: int) -> Grids:
-    """Compute one stroke on three grids: at the given resolution, and at half and a quarter of this resolution.
-
-    The difference between the grids shows the error of the result.
-    """
+    """One stroke on three grids: full, half and quarter resolution."""
     flow = flow_at(mesh, space, speed, slices)  # this call comes first, because it refuses a march that is too long
     half, quarter = (coarser_flow_at(mesh, space, speed, slices, times) for times in (2, 4))
     return Grids(flow, half, quarter, _lead(mesh, space, speed))
 
 
 def _lead(mesh: Mesh, space: Space, speed: float) -> float:
-    """Compute `Grids.lead`: |c - v|/v, where c is the ambient speed of sound, and v the speed of the meshing line.
-
-    For flow models without waves, return infinity.
-    """
+    """`Grids.lead` = |c - v|/v; infinite for flow models without waves."""
     if mesh.setup.model.flow is not Flow.GAS_DYNAMICS:
         return inf
     return abs(mesh.gas.sound_speed * space.lag / (speed * space.speed_ratio) - 1.0)

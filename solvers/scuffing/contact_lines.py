@@ -37,15 +37,12 @@ class ContactLengths:
 
 
 def contact_lengths(path: PathOfContact) -> ContactLengths:
-    """Compute the total contact length in closed form [m].
+    """Total contact length in closed form, in place of the missing Eq. 4 of the paper [m].
 
-    Eq. 4 is missing in the paper; these formulas replace it. The mean length is L = eps_alpha b / cos beta_b. The total
-    length as a function of the roll position is the periodic convolution of two rectangles. One rectangle has the
-    length eps_alpha = n_a + f_a, and the other has the length eps_beta = n_b + f_b. Here n_a and n_b are whole numbers,
-    and f_a and f_b are fractions below 1. With the unit u = b / (eps_beta cos beta_b): L_min = u [n_a eps_beta + n_b
-    f_a + max(0, f_a + f_b - 1)], L_max = u [n_a eps_beta + n_b f_a + min(f_a, f_b)]. Raises InvalidInput: `no_contact`
-    if L_min = 0, because there are then roll positions at which no pair of teeth is in contact; `overlap_range` if more
-    than 100 lines are in contact at the same time.
+    The mean is eps_alpha b/cos beta_b; over the roll it is the convolution of two rectangles, eps_alpha = n_a + f_a and
+    eps_beta = n_b + f_b. With u = b/(eps_beta cos beta_b): L_min = u [n_a eps_beta + n_b f_a + max(0, f_a + f_b - 1)],
+    L_max = u [n_a eps_beta + n_b f_a + min(f_a, f_b)]. Raises InvalidInput: `no_contact` if L_min = 0, `overlap_range`.
+    Eq. 4.
     """
     length = path.plane.face_width / path.plane.cos_base_helix
     transverse, overlap = path.transverse_contact_ratio, path.overlap_ratio
@@ -75,12 +72,9 @@ def contact_lengths(path: PathOfContact) -> ContactLengths:
 
 
 class RollPositions(NamedTuple):
-    """Roll positions [m] in one base pitch, in ascending order.
+    """Roll positions [m] in one base pitch, ascending; loads may change abruptly at a `corner`.
 
-    `corner` marks the roll positions that are corners (see `roll_positions`); loads may change abruptly at a corner.
-
-    The contact length of a spur gear jumps at a corner. Every corner of a spur gear therefore occurs twice: `side` is
-    -1 for the limit from below, and +1 for the limit from above. At all other roll positions `side` is 0.
+    A corner of a spur gear occurs twice, with `side` -1 and +1 for the limits from below and above, else 0.
     """
 
     phase: FloatArray
@@ -91,12 +85,10 @@ class RollPositions(NamedTuple):
 def roll_positions(
     plane: ContactPlane, count: int, along_path: tuple[float, ...] = (), along_face: tuple[float, ...] = ()
 ) -> RollPositions:
-    """Return at least `count` roll positions, equidistant between neighbouring corners.
+    """At least `count` roll positions, equidistant between corners.
 
-    A corner is a roll position at which a contact line passes the crossing point of two straight lines. These straight
-    lines are the edges of the plane of action and the kinks of the gap. `along_path` contains the x [m] of kinks, and
-    `along_face` contains the y [m] of kinks. A contact line passes the crossing point (x, y) at the roll position
-    (x + y tan beta_b) mod p_bt.
+    A corner is where a line passes a crossing of the plane's edges and the gap's kinks `along_path` x and `along_face`
+    y [m]: (x + y tan beta_b) mod p_bt.
     """
     pitch = plane.base_pitch
     x = np.array([0.0, plane.path_length, *along_path])
@@ -118,13 +110,10 @@ def roll_positions(
 
 @inner_kernel
 def line_ends(plane: ContactPlane, phase: float, side: float) -> tuple[float, float]:
-    """Compute the ends of a contact line.
+    """First and last y [m] of the contact line x = phase - y tan beta_b; equal if out of contact (Eq. L3).
 
-    Eq. L3: the line is x = phase - y tan beta_b. The line of a spur gear is in contact if the tested line lies on the
-    path of contact. `side` matters only if the line lies at an end of the path. The line of a helical gear is not in
-    contact if it touches the rectangle only at a corner, because rounding errors would otherwise decide the result.
-    Returns `low`: first y of the line [m]; `high`: last y of the line [m]; equal to the first if the line is not in
-    contact.
+    `side` decides at the ends of a spur gear's path; a helical line that touches a corner is out of contact, which
+    rounding would decide otherwise.
     """
     if plane.tan_base_helix == 0.0:
         nudged = phase + side * COINCIDENT * plane.base_pitch
@@ -165,10 +154,7 @@ def gap_on_line(form: Gap, plane: ContactPlane, line: float, y: float) -> float:
 
 @inner_kernel
 def valley(form: Gap, plane: ContactPlane, line: float, low: float, high: float) -> float:
-    """Find the y [m] at which the gap on a line is least, by golden section between y = `low` and y = `high`.
-
-    The gap must have only one minimum between these two points.
-    """
+    """Place y [m] of the only minimum of the gap on a line from `low` to `high`, by golden section."""
     inner, outer = high - GOLDEN * (high - low), low + GOLDEN * (high - low)
     at_inner, at_outer = gap_on_line(form, plane, line, inner), gap_on_line(form, plane, line, outer)
     for _ in range(GOLDEN_STEPS):
@@ -185,11 +171,7 @@ def valley(form: Gap, plane: ContactPlane, line: float, low: float, high: float)
 
 @inner_kernel
 def _edge(form: Gap, plane: ContactPlane, line: float, inside: float, outside: float, reach: float) -> float:
-    """Find the y [m] of the end of contact on a line.
-
-    The end lies between the loaded point `inside` and the unloaded point `outside`. At the end, the gap equals the
-    approach `reach` [m].
-    """
+    """Place y [m] between a loaded and an unloaded point where the gap equals the approach `reach` [m]."""
     for _ in range(BISECTIONS):
         middle = 0.5 * (inside + outside)
         if gap_on_line(form, plane, line, middle) < reach:
@@ -221,11 +203,7 @@ def loaded_zones(
     reach: float,
     zones: FloatArray,
 ) -> int:
-    """Find the loaded stretches within a part of a line, write them to `zones`, and return their number.
-
-    `part` contains the first and the last y [m] of the part. The gap must have no kink inside the part. A stretch is
-    loaded if the gap is below `reach` [m]. A row of `zones` contains the first and the last y [m] of a stretch.
-    """
+    """Write the stretches with a gap below `reach` [m] of a kink-free part of a line; return their number."""
     low, high = part
     step, count = (high - low) / samples, 0
     before, least_gap, least_at = low, gap_on_line(form, plane, line, low), low

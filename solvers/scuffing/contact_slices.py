@@ -93,10 +93,7 @@ def slice_table(mesh: Mesh, slices: int) -> Slices:
 
 @inlined_kernel
 def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: Slices, count: int) -> int:
-    """Cut a stretch of line j into equal slices, and add these slices to the table.
-
-    `zone` contains the first and the last y [m] of the stretch. Returns the new number of slices in the table.
-    """
+    """Cut a stretch [first, last y] of line j into equal slices of the table; return the new number of slices."""
     low, high = zone
     step = (high - low) / slices
     for i in range(slices):
@@ -114,10 +111,7 @@ def _cut(mesh: Mesh, line: float, j: int, zone: FloatArray, slices: int, table: 
 def _parts(
     mesh: Mesh, line: float, ends: tuple[float, float], slices: int, reach: float, zones: FloatArray
 ) -> tuple[int, float]:
-    """Write the loaded stretches of a line to `zones`; return the number of stretches and the total y length [m].
-
-    On a loaded stretch the gap is below `reach` [m]. No stretch contains a kink of the gap.
-    """
+    """Write the kink-free loaded stretches (gap below `reach`) of a line; return their number and y length [m]."""
     edges, (first_y, last_y) = np.empty(MOST_EDGES), ends
     last = smooth_parts(mesh.gap, line, mesh.plane.tan_base_helix, ends, edges) - 1
     count, length, stations = 0, 0.0, (mesh.gap.lead.size - 1) / mesh.gap.face_width
@@ -142,11 +136,7 @@ def _parts(
 
 @inner_kernel
 def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, table: Slices) -> Cover:
-    """Cut all contact lines at a roll position into slices, and write the slices to the table.
-
-    The slices cover only those stretches of a line where the gap is below `reach` [m]. Every covered line has at least
-    `slices` slices. No slice contains a kink of the gap.
-    """
+    """Cut the parts of all lines with a gap below `reach` [m] into at least `slices` kink-free slices a line."""
     plane, zones = mesh.plane, np.empty((MOST_EDGES * MOST_ZONES, 2))
     count, length, least, most = 0, 0.0, np.inf, -np.inf
     for j in range(line_count(plane)):
@@ -167,10 +157,7 @@ def gather(mesh: Mesh, phase: float, side: float, slices: int, reach: float, tab
 
 @inlined_kernel
 def _range(mesh: Mesh, line: float, zone: FloatArray, table: Slices, first: int, last: int) -> tuple[float, float]:
-    """Return the least and the largest gap [m] on a stretch of a contact line.
-
-    `zone` contains the first and the last y [m] of the stretch, which consists of the slices `first` to `last` - 1.
-    """
+    """Least and largest gap [m] on a stretch, which consists of the slices `first` to `last` - 1."""
     low, high = zone
     at_low, at_high = gap_on_line(mesh.gap, mesh.plane, line, low), gap_on_line(mesh.gap, mesh.plane, line, high)
     least, most = min(at_low, at_high), max(at_low, at_high)
@@ -192,11 +179,9 @@ def _range(mesh: Mesh, line: float, zone: FloatArray, table: Slices, first: int,
 def _beside(
     mesh: Mesh, line: float, table: Slices, end: tuple[float, float], at_end: float, middle: int, following: int
 ) -> float:
-    """Return the least gap [m] between the end of a stretch and the middle of the slice at this end.
+    """Least gap [m] between the end of a stretch and the middle of the slice there.
 
-    `end` contains the y [m] of this end, and the change of y [m] from there to the opposite end of the slice. `at_end`
-    is the gap [m] at the end of the stretch. `middle` is the index of the slice at this end, and `following` is the
-    index of the next slice.
+    `end`: its y and the way to the slice's other end [m]; `at_end`: the gap there; `middle`, `following`: slices.
     """
     y, step = end
     if table.gap[middle] > table.gap[following]:
@@ -209,10 +194,7 @@ def _beside(
 
 @inlined_kernel
 def load_under(compliance: PairCompliance, approach: float, x: float, log_load: float) -> tuple[float, float]:
-    """Return the line load w [N/m] of a pair of teeth at the distance x [m] from A, and ln w.
-
-    `approach` [m] is the approach of the flanks at this distance; `log_load` is a guess of ln w.
-    """
+    """Line load [N/m] under an `approach` [m] of the flanks at x [m] from A, and ln of it from the guess `log_load`."""
     constant, limit = compliance_at(compliance, x)
     load, _, log_load = line_load(approach, constant, compliance.logarithmic, limit, log_load)
     return load, log_load
@@ -295,11 +277,7 @@ def survey_slices(mesh: Mesh, table: Slices, count: int, error: float, survey: S
 
 @inner_kernel
 def survey_ends(mesh: Mesh, phase: float, side: float, error: float, survey: Survey, i: int) -> None:
-    """Update the largest load and pressure of roll position i with the loads at ends of lines and at kinks of the gap.
-
-    `error` is the transmission error TE [m] at this roll position. A contact line that only touches a corner of the
-    plane of action has its end at this corner.
-    """
+    """Include the loads at line ends and kinks in the largest ones of roll position i; `error` is TE [m]."""
     plane, edges, log_load = mesh.plane, np.empty(MOST_EDGES), 0.0
     overlap = plane.face_width * plane.tan_base_helix
     for j in range(line_count(plane)):
@@ -320,10 +298,7 @@ def reaches_base_circle(survey: Survey) -> bool:
 
 
 def largest(peaks: Peaks) -> Peak | None:
-    """Return the largest peak of all roll positions; return None if there is no load.
-
-    If several peaks are equally large, the first of these is returned.
-    """
+    """First of the largest peaks over the roll positions; None without load."""
     values = peaks.value
     first = int(np.argmax(values >= values.max() * (1.0 - EQUAL)))
     if values[first] <= 0.0:

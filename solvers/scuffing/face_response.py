@@ -19,14 +19,10 @@ from solvers.scuffing.load_balance import TOLERANCE, solve_near
 
 @dataclass(frozen=True, slots=True)
 class FaceResponse:
-    """Transverse forces at the stations, averaged over a base pitch, and their derivatives with respect to the gaps.
+    """Mean transverse forces [N] at the stations, and their derivatives by the gaps [N/m] (rows: forces).
 
-    `force` [N] has one value for each station. In `derivative` [N/m], the rows are the forces at the stations, and the
-    columns are the gaps at the stations. The elements of every column add up to 0, because a change of the gap does not
-    change the sum of all forces. The elements of every row add up to 0, because no force changes if the gap changes by
-    the same amount at all stations. `error` is the approach of the flanks [m] at every roll position, and `log_load` is
-    ln w of the slices at every roll position. The next response of the same mesh under a similar gap starts from
-    `error` and `log_load`.
+    Rows and columns add up to 0: the sum of forces is given, and an equal gap changes none. `error` [m] and `log_load`
+    start the next response.
     """
 
     force: FloatArray
@@ -72,13 +68,10 @@ def _respond(
     spread: FloatArray,
     derivative: FloatArray,
 ) -> float:
-    """Add the forces of all roll positions to `spread`, and the derivatives of the forces to `derivative`.
+    """Add forces and their derivatives of all roll positions; return the largest residual of the load balance.
 
-    At every roll position the force at station a is the sum of w dl hat_a over the slices, where hat_a is the hat
-    function of the station. The derivative is k k^T / (1^T k) - P, where P_ab = sum (dw/ddelta) dl hat_a hat_b,
-    k = P 1, and 1 is the vector of ones. `share` holds a factor for each roll position. This factor is the weight of
-    the position in the average over the base pitch, times cos beta_b for the transverse component of the force.
-    Returns the largest relative residual of the load balance.
+    The force at station a is sum w dl hat_a; its derivative k k^T/(1^T k) - P, P_ab = sum (dw/ddelta) dl hat_a hat_b, k
+    = P 1. `share` weighs a position, times cos beta_b.
     """
     table, worst = slice_table(mesh, slices), 0.0
     springs = np.zeros(spread.size)

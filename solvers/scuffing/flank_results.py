@@ -24,13 +24,10 @@ SAME = 1e-6  # share of the range of places, or of a length; smaller differences
 
 
 def face_load_factor(balance: LoadBalance, y: float) -> float:
-    """Compute the face load factor of a loaded mesh [-].
+    """K_Hbeta: largest over mean of q(y) = int w dx/p_bt, the idea of ISO 6336-1, annex E [-] (Eq. L17).
 
-    Eq. L17: K_Hbeta is the largest value of q(y) = int w dx / p_bt divided by the mean value of q. This definition
-    follows the idea of ISO 6336-1, annex E. The mean value of q is computed from the transmitted force and the face
-    width. To find the largest value, q is first computed on a coarse grid that contains `y`, and then on finer grids
-    around the largest value. If a contact line is loaded over a part of its length only, the values of q on the coarse
-    grid are inexact. Finer grids are then also used around up to two further local maxima that are nearly as large.
+    The largest is searched on a grid with `y`, then around it and, where lines are partly loaded, around two more
+    maxima.
     """
     plane = balance.mesh.plane
     evenly = np.linspace(0.0, plane.face_width, FACE_POINTS)
@@ -47,20 +44,14 @@ def _in_part(balance: LoadBalance) -> bool:
 
 
 def tops(values: FloatArray) -> list[int]:
-    """Return the indices of the largest value and of those local maxima that are nearly as large.
-
-    The indices are sorted by the values, so that the index of the largest value comes last.
-    """
+    """Indices of the largest value (last) and of local maxima that are nearly as large."""
     edged = np.concatenate([[-np.inf], values, [-np.inf]])
     local = np.flatnonzero((values > edged[:-2]) & (values >= edged[2:]) & (values >= NEARLY * values.max()))
     return sorted(local.tolist(), key=lambda k: float(values[k]))
 
 
 def _largest_around(balance: LoadBalance, places: FloatArray, top: int) -> float:
-    """Return the largest force per face width [N/m] near the point `places[top]` of the face.
-
-    The search extends to the neighbouring points in `places`.
-    """
+    """Largest force per face width [N/m] between the neighbours of `places[top]`."""
     for _ in range(ZOOMS):
         low, high = places[max(top - 1, 0)], places[min(top + 1, places.size - 1)]
         places = _apart(np.append(np.linspace(low, high, ZOOM_POINTS), places[top]))
@@ -76,23 +67,14 @@ def _apart(places: FloatArray) -> FloatArray:
 
 
 def face_loads(balance: LoadBalance, y: FloatArray, substeps: int = SUBSTEPS) -> FloatArray:
-    """Compute the force per face width over the face [N/m] (Eq. L17).
-
-    `substeps`: number of substeps between neighbouring roll positions. This number is used only if a contact line is
-    loaded over a part of its length; otherwise there are no substeps.
-    """
+    """Force per face width over the face [N/m]; `substeps` serve partly loaded lines (Eq. L17)."""
     phase, error = balance.rolls.phase, balance.transmission_error
     return _face_loads(balance.mesh, phase, error, substeps if _in_part(balance) else 1, y)
 
 
 @kernel
 def _face_loads(mesh: Mesh, phase: FloatArray, error: FloatArray, substeps: int, y: FloatArray) -> FloatArray:
-    """Integrate the line load along the path from A to E by the trapezoidal rule, for every y.
-
-    The rule uses the points x at which a contact line passes y, at all roll positions and substeps. If the
-    transmission error jumps at a roll position, the points of this roll position are used twice: with the transmission
-    error before the jump, and with the transmission error after the jump.
-    """
+    """Line load along the path from A to E by the trapezoidal rule, for every y; both sides of jumps of TE count."""
     plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
     across = lead_gaps(form, y)
     x, load = np.zeros(y.size), loads_at(mesh, phase, error, np.zeros(y.size), y)
@@ -162,11 +144,7 @@ def _load_sharing(path: PathOfContact, load: FloatArray, tangential_force: float
 
 
 def flank(balance: LoadBalance, modulus: float, profile_points: int, face_points: int) -> Flank:
-    """Compute the maps over the flank; `modulus` is the reduced modulus E' [Pa].
-
-    The maps are arrays [profile, face]. Along the path they run from A to E. Over the face they begin at the end that
-    meshes first.
-    """
+    """Maps [profile, face] over the flank, from A to E and from the end that meshes first; `modulus` is E' [Pa]."""
     plane = balance.mesh.plane
     profile, face = np.linspace(0.0, 1.0, profile_points), np.linspace(0.0, 1.0, face_points)
     x, y = profile * plane.path_length, face * plane.face_width
@@ -184,12 +162,7 @@ def flank(balance: LoadBalance, modulus: float, profile_points: int, face_points
 def _maps(
     mesh: Mesh, phase: FloatArray, error: FloatArray, loaded: bool, x: FloatArray, y: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Return the gap Delta [m] and the line load w [N/m] over a grid with the coordinates x and y.
-
-    The points of a row have the same x. The load at a point is found by iteration. The iteration starts from the load
-    at the same y in the previous row, not from the previous point of the same row. The processor can therefore compute
-    several points of a row at the same time.
-    """
+    """Gap [m] and line load [N/m] over a grid; each row starts from the one before, so that points run in parallel."""
     plane, compliance, form = mesh.plane, mesh.compliance, mesh.gap
     gaps, loads = np.empty((x.size, y.size)), np.zeros((x.size, y.size))
     across = lead_gaps(form, y)
@@ -208,11 +181,7 @@ def _maps(
 
 
 def contact_pressure(plane: ContactPlane, radius: FloatArray, load: FloatArray, modulus: float) -> FloatArray:
-    """Compute the Hertzian pressure at points of the flank.
-
-    Eq. 14 of the paper gives the mean pressure, which is pi/4 of the value returned here. The paper calls the mean
-    pressure the maximum pressure.
-    """
+    """Hertzian pressure at points of the flank; the paper's "maximum" is the mean, pi/4 of it (Eq. 14)."""
     defined = radius >= plane.least_radius
     pressure = hertz.maximum_pressure(load, np.where(defined, radius, 1.0), modulus)
     return np.where(defined, pressure, np.nan)

@@ -92,12 +92,7 @@ class Load:
 
     @property
     def torque(self) -> float:
-        """Transmitted torque of the pinion [N m]; if only the power is given, the torque is P/omega.
-
-        In the units of the paper (kW and 1/min), P/omega is 9549 P/n.
-
-        Raises InvalidInput (`torque_or_power`) if neither torque nor power is given.
-        """
+        """Transmitted torque of the pinion [N m], else P/omega; raises `torque_or_power` without both."""
         if self.pinion_torque is not None:
             return self.pinion_torque
         if self.power is None:
@@ -524,10 +519,7 @@ class Temperatures:
 
     @property
     def surfaces(self) -> tuple[float, float] | None:
-        """Bulk temperatures of pinion and wheel [K], or None if `flanks` and `bulk` are both None.
-
-        If only `flanks` is None, both gears have the bulk temperature `bulk`.
-        """
+        """Bulk temperatures of pinion and wheel [K]: `flanks`, else twice `bulk`, else None."""
         if self.flanks is not None or self.bulk is None:
             return self.flanks
         return self.bulk, self.bulk
@@ -540,10 +532,7 @@ class Temperatures:
 
 @record
 class FlankSurfaces:
-    """Hardening of both flanks.
-
-    Select a surface with retained austenite only if the content of retained austenite exceeds 25 %.
-    """
+    """Hardening of both flanks; retained austenite counts above 25 %."""
 
     pinion: FlankSurface = quantity(
         "surface of the pinion", "W_W1", ISO_TR_15144, default="case_hardened", assumed="case-hardened flanks"
@@ -557,10 +546,7 @@ class FlankSurfaces:
 class MicropittingCheck:
     """Inputs of the checks against micropitting and wear.
 
-    The inputs describe the micropitting test of the oil, and the surfaces and the quality of the flanks. The
-    permissible film ratio `permissible_ratio` may be given instead of the test. If neither is given, only the film is
-    computed, and no safety factor. If `material_factor` is None, the smaller of the material factors of both surfaces
-    is used. `quality_grade` is only used for the load sharing of method B.
+    Without test and `permissible_ratio` only the film is computed. `quality_grade` serves method B alone.
     """
 
     failure_load_stage: int | None = quantity(

@@ -60,12 +60,9 @@ Start = tuple[FloatArray, FloatArray]
 
 @inner_kernel
 def _secant_start(table: Slices, count: int, logarithmic: float, force: float) -> float:
-    """Compute a start value of TE [m] from a balance with linear compliances.
+    """Start value of TE [m] by linear compliances, secant ones at the mean line load if "hertzian".
 
-    If the model of the contact is "hertzian", every slice gets its secant compliance at the mean line load. Newton's
-    method solves the linear balance exactly. The first step treats all slices as if they were in contact and could also
-    pull. The TE of this step is too large, because slices that pull reduce the force. Every further step reduces TE,
-    and fewer slices are in contact.
+    The first step lets slices pull, so TE is too large; every further step reduces it and the slices in contact.
     """
     log_mean = 0.0
     if logarithmic > 0.0:
@@ -92,12 +89,10 @@ def _secant_start(table: Slices, count: int, logarithmic: float, force: float) -
 
 @inner_kernel
 def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple[float, float, float, float]:
-    """Improve the load of every slice by one iteration step, at the transmission error `error` [m].
+    """One iteration step of every slice's load at TE `error` [m].
 
-    Returns four values: the force [N]; the derivative of the force with respect to `error` [N/m]; an estimate of the
-    inaccuracy of the force [N]; and the distance of `error` from the nearest kink [m]. The force is inaccurate as long
-    as the loads of the slices have not converged. The load of a slice, as a function of `error`, has two kinks. At one
-    kink the slice comes into contact. At the other kink the compliance of the slice begins to be held constant.
+    Returns force [N], its derivative [N/m], its inaccuracy [N] and the distance [m] from the nearest kink, where a
+    slice comes into contact or its compliance begins to be held.
     """
     force, slope, unsettled, nearest = 0.0, 0.0, 0.0, np.inf
     for i in range(count):
@@ -117,10 +112,7 @@ def _press(table: Slices, count: int, logarithmic: float, error: float) -> tuple
 
 @inner_kernel
 def _follow(table: Slices, count: int, change: float) -> float:
-    """Change the load of every slice by its derivative times `change`; return the force of all slices [N].
-
-    `change` [m] is the change of TE, and the derivative of a load is the derivative with respect to TE.
-    """
+    """Change the load of every slice by its derivative times `change` [m] of TE; return the force [N]."""
     force = 0.0
     for i in range(count):
         table.load[i] += table.stiffness[i] * change
@@ -130,14 +122,10 @@ def _follow(table: Slices, count: int, change: float) -> float:
 
 @inner_kernel
 def newton(table: Slices, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
-    """Solve the balance of one roll position by Newton's method, from a start value of TE (Eq. L13).
+    """Solve the balance of one roll position from a start value; return TE [m], residual and steps (Eq. L13).
 
-    TE and the loads of the slices are iterated together: after every step of TE, the load of every slice takes one step
-    of its own iteration. The error after a step of TE is estimated by the square of the relative residual before this
-    step. A step is the last step if it crosses no kink and if this estimate is below rounding. In the last step, the
-    loads are not iterated: every load changes by its derivative times the step of TE. With linear contact every step
-    that crosses no kink is the last step. Returns `error`: approach TE [m]; `residual`: residual of the force divided
-    by the force [-]; `steps`: number of steps.
+    After every step of TE each load takes one step of its own. A step that crosses no kink is the last one if the
+    square of the residual before is below rounding (linear contact: always); loads then follow by their derivatives.
     """
     residual, steps = np.inf, 0.0
     while steps < MAX_STEPS:
@@ -162,12 +150,7 @@ def solve_position(table: Slices, count: int, logarithmic: float, force: float) 
 
 @inner_kernel
 def solve_near(table: Slices, count: int, logarithmic: float, force: float, error: float) -> tuple[float, float, float]:
-    """Solve the balance of one roll position from the start values of a similar position.
-
-    The start values are `error`, the TE [m] of the similar position, and `table.log_load`, the ln w of the similar
-    position. If `error` is NaN, or if the iteration from these start values fails, the balance is solved without start
-    values. Returns the values that `newton` returns.
-    """
+    """`newton` from TE and ln w of a similar position; without start values if `error` is NaN or that fails."""
     if not np.isnan(error):
         error, residual, steps = newton(table, count, logarithmic, force, error)
         if residual <= TOLERANCE:
@@ -179,11 +162,8 @@ def solve_near(table: Slices, count: int, logarithmic: float, force: float, erro
 class LoadBalance:
     """Loaded state of a mesh over one base pitch; arrays over the roll positions.
 
-    `force` is the force [N] that the contact lines carry together; it is 0 without load. `transmission_error` is TE.
-    `unloaded_error` is TE without load; this value equals the least gap over the lines. Both errors are measured along
-    the transverse line of action [m]. `residual` is the residual of the load balance divided by the force. `steps` is
-    the number of Newton steps. `bent_steps` is the number of pairs of neighbouring roll positions between which TE is
-    still not linear.
+    `force` [N] is that of all lines. `transmission_error` and `unloaded_error` (the least gap) are along the transverse
+    line of action [m]; `residual` is relative; `bent_steps` counts steps over which TE is still not linear.
     """
 
     mesh: Mesh
@@ -232,11 +212,9 @@ def _balanced(mesh: Mesh, rolls: RollPositions, force: float, slices: int, start
 
 
 def _bent_steps(balance: LoadBalance) -> IntArray:
-    """Return the indices of the steps over which the transmission error TE is not linear, in ascending order.
+    """Indices of the steps over which TE is not linear, ascending: both beside a position off its neighbours' line.
 
-    A step lies between two neighbouring roll positions. At every roll position, TE is compared with the straight line
-    through TE at both neighbouring positions. If TE is not close to this line, TE is not linear over the steps on both
-    sides of the position. The positions marked in `RollPositions.corner` are not tested.
+    Corners are not tested.
     """
     phase, error = balance.rolls.phase, balance.transmission_error
     spread = np.full(error.size, max(float(np.ptp(error)), LEAST_SPREAD))
@@ -251,17 +229,10 @@ def _bent_steps(balance: LoadBalance) -> IntArray:
 
 
 def _merged(balance: LoadBalance, added: LoadBalance, places: IntArray) -> LoadBalance:
-    """Insert the roll positions of `added` into `balance`; both are balances of the same mesh.
-
-    `places` contains one index for every added roll position. The added roll position is inserted before the roll
-    position of `balance` that has this index.
-    """
+    """Insert the roll positions of `added` into `balance`, each before the position with its index in `places`."""
 
     def together(old: Any, new: Any) -> Any:
-        """Insert `new` into `old` at the indices `places`.
-
-        `old` and `new` are arrays over roll positions, or tuples of such arrays.
-        """
+        """Insert `new` at `places` of `old`, arrays over roll positions or tuples of them."""
         if isinstance(old, tuple):
             return type(old)(*map(together, old, new))
         return np.insert(old, places, new, axis=0)
@@ -282,13 +253,10 @@ def _merged(balance: LoadBalance, added: LoadBalance, places: IntArray) -> LoadB
 def _settle(
     mesh: Mesh, at: tuple[float, float], slices: int, force: float, least: float, error: float, table: Slices
 ) -> tuple[Cover, float, float, float]:
-    """Solve the balance of a roll position at which lines are loaded over a part of their length only.
+    """Balance of a roll position with partly loaded lines; return cover, TE [m], residual and steps.
 
-    `at` contains the phase and the side of the roll position (see `RollPositions`). The start value `error` is the TE
-    [m] that results if the lines are cut into slices over their whole length. Every pass cuts into slices only the
-    parts of the lines that are loaded at the TE of the previous pass, and solves the balance again. The load is zero at
-    the ends of a loaded part. An error of TE in one pass therefore causes only a second-order error in the next pass.
-    Returns the `Cover` of the slices in the last pass, TE [m], the relative residual, and the number of steps.
+    Every pass cuts only what is loaded at the TE before; loads vanish at the ends, so the error is of second order.
+    `at` is phase and side, `error` the start from whole lines.
     """
     covers, steps, settled = 0, 0.0, False
     phase, side = at
@@ -305,11 +273,7 @@ def _settle(
 def _balance(
     mesh: Mesh, phase: FloatArray, side: FloatArray, force: float, slices: int, start: FloatArray, log_load: FloatArray
 ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, Survey]:
-    """Balance the load at every roll position.
-
-    Returns TE [m], the least gap [m], the relative residual and the number of steps at every roll position, and the
-    survey of the loaded lines.
-    """
+    """Balance every roll position; return TE [m], least gap [m], residual, steps and the survey of the loaded lines."""
     error, unloaded = np.empty(phase.size), np.empty(phase.size)
     residual, steps = np.zeros(phase.size), np.zeros(phase.size)
     survey = empty_survey(mesh, phase.size)
@@ -338,12 +302,9 @@ def _balance(
 def error_at(
     plane: ContactPlane, phase: FloatArray, error: FloatArray, x: float, y: float, index: int
 ) -> tuple[float, int]:
-    """Return the transmission error at a point (x, y), and the index of the step from which this error is taken.
+    """TE at (x, y), linear in the step of its line, and the step's index; the search begins at `index`.
 
-    The contact line through the point belongs to one roll position. The result is the transmission error at this roll
-    position. A step lies between two neighbouring roll positions of the balance. Within a step, the transmission error
-    is interpolated linearly. The search for the step begins at the step `index`. At the end of the path, the result is
-    the value just before the contact line leaves the path.
+    At the end of the path, the value just before the line leaves it.
     """
     line = min(x, plane.path_length * (1.0 - BESIDE)) + y * plane.tan_base_helix
     position = line - int(line / plane.base_pitch) * plane.base_pitch
@@ -366,10 +327,7 @@ def loads_at(mesh: Mesh, phase: FloatArray, error: FloatArray, x: FloatArray, y:
 
 
 def line_loads(balance: LoadBalance, x: FloatArray, y: FloatArray) -> FloatArray:
-    """Return the line load w [N/m] at points x, y [m] of the plane of action; 0 at points where the flanks are apart.
-
-    x and y are arrays of one shape.
-    """
+    """Line load w [N/m] at points x, y [m] (arrays of one shape) of the plane of action; 0 out of contact."""
     if balance.force == 0.0:
         return np.zeros(np.shape(x))
     points = np.ravel(x).astype(float), np.ravel(y).astype(float)

@@ -26,11 +26,10 @@ HARMONICS = 5  # number of harmonics, chosen
 
 
 def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:
-    """Return the load sharing at distances x [m] from A, or None if ISO/TR 13989-1 has no diagram for the pair.
+    """Load sharing X_Gamma X_but of ISO/TR 13989-1 at x [m] from A; None where it has no diagram.
 
-    The result is the load sharing factor X_Gamma times the buttressing factor X_but. If eps_gamma is below 2, X_Gamma
-    is that of spur gears of quality 7 or better. Otherwise X_Gamma is 1 / eps_alpha. The standard has no diagram for
-    eps_alpha < 1, and no diagram for spur gears with eps_alpha >= 2.
+    eps_gamma below 2: spur gears of quality 7 or better; else 1/eps_alpha. No diagram for eps_alpha < 1, or spur gears
+    >= 2.
     """
     ratio = path.transverse_contact_ratio
     if ratio < 1.0 or (path.overlap_ratio == 0.0 and ratio >= 2.0):
@@ -43,22 +42,16 @@ def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:
 
 
 def _narrow(x: FloatArray, length: float, double: float) -> FloatArray:
-    """Return the load sharing factor of narrow gears.
-
-    The factor rises from 1/3 at A to 2/3 at B, is 1 between B and D, and falls from 2/3 at D to 1/3 at E. The distance
-    from A to B is `double` [m].
-    """
+    """Load sharing of narrow gears: 1/3 at A, 2/3 at B, 1 between B and D, mirrored to E; `double` [m] is AB."""
     from_end = np.minimum(x, length - x)
     with_mate = 1 / 3 + from_end / (3 * double) if double > 0.0 else np.ones_like(x)
     return np.where(from_end < double, with_mate, 1.0)
 
 
 def _buttressing(path: PathOfContact, x: FloatArray) -> FloatArray:
-    """Return the buttressing factor of helical teeth; the factor is 1 for spur gears.
+    """Buttressing factor of helical teeth: 1 + 0.3 min(eps_beta, 1) at A and E, linear to 1 (Eq. 15).
 
-    Helical teeth carry more load near the ends A and E of the path of contact than in the middle. At A and E, the
-    factor is 1 + 0.3 min(eps_beta, 1). Towards the middle, the factor falls linearly, and reaches 1 where the profile
-    parameter Gamma differs by 0.2 sin beta_b from its value at A or E (Eq. 15).
+    It reaches 1 where Gamma differs by 0.2 sin beta_b.
     """
     plane = path.plane
     ramp = 0.2 * plane.tan_base_helix * plane.cos_base_helix * path.pitch_point
@@ -70,11 +63,7 @@ def _buttressing(path: PathOfContact, x: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class StandardStiffness:
-    """Stiffness by ISO 6336-1, method B [Pa].
-
-    `theoretical` is c'_th, the theoretical stiffness of one pair of teeth, and `single` is c', the stiffness of one
-    pair of teeth. `mesh` is c_gamma_alpha and `mesh_bending` is c_gamma_beta, both of them stiffnesses of the mesh.
-    """
+    """Stiffness by ISO 6336-1, method B [Pa]: c'_th, c', c_gamma_alpha (`mesh`), c_gamma_beta (`mesh_bending`)."""
 
     theoretical: float
     single: float
@@ -85,17 +74,15 @@ class StandardStiffness:
 def standard_stiffness(
     path: PathOfContact, line_load: float = REFERENCE_LOAD, youngs_modulus: float = STEEL
 ) -> StandardStiffness:
-    """Compute the stiffness of teeth and mesh by ISO 6336-1, method B [Pa].
+    """Stiffness of teeth and mesh by ISO 6336-1, method B [Pa] (Eq. L16).
 
-    Eq. L16: c' = c'_th C_M C_R C_B cos beta, c_ga = c' (0.75 eps_alpha + 0.25), c_gb = 0.85 c_ga, with
+    c' = c'_th C_M C_R C_B cos beta, c_ga = c' (0.75 eps_alpha + 0.25), c_gb = 0.85 c_ga, with
 
     1/c'_th = 0.04723 + 0.15551/z_n1 + 0.25791/z_n2 - 0.00635 x1 - 0.11654 x1/z_n1 - 0.00193 x2 - 0.24188 x2/z_n2
               + 0.00529 x1^2 + 0.00182 x2^2 [mm um/N].
 
-    C_M is the ratio of measured to theoretical stiffness, C_R is the factor of the gear disc, and C_B is the factor of
-    the basic rack. Gear 1 is the gear with fewer teeth, even if the other gear drives. If both gears have the same
-    number of teeth, gear 1 is the gear with the larger profile shift (our choice). For materials other than steel, c'
-    is multiplied by E/206 GPa. At line loads below 100 N/mm, c' is proportional to the fourth root of the line load.
+    Gear 1 has fewer teeth, whichever drives, or the larger profile shift (our choice). Times E/206 GPa; below 100 N/mm,
+    c' is proportional to the fourth root of the line load.
     """
     inputs = path.pair.inputs
     virtual = cos(path.pair.base_helix_angle) ** 2 * cos(inputs.helix_angle)
@@ -114,28 +101,19 @@ def standard_stiffness(
 
 
 def _standard_line_load(path: PathOfContact, load: Load) -> float:
-    """Return the line load F_t K_A/b [N/m], with F_t at the reference circle.
-
-    Without load, return `REFERENCE_LOAD`.
-    """
+    """Line load F_t K_A/b [N/m] at the reference circle; `REFERENCE_LOAD` without load."""
     tangential = load.application_factor * load.torque / path.pair.pinion.reference_radius
     return tangential / path.plane.face_width if tangential > 0.0 else REFERENCE_LOAD
 
 
 def _rack_factor(pair: GearPair) -> float:
-    """Return C_B = [1 + 0.5 (1.2 - h_fP)][1 - 0.02 (20 - alpha_n)].
-
-    h_fP is the mean of the dedenda of both gears, in normal modules. alpha_n is the normal pressure angle in degrees.
-    """
+    """C_B = [1 + 0.5 (1.2 - h_fP)][1 - 0.02 (20 - alpha_n)], mean dedendum in modules, alpha_n in degrees."""
     dedendum = (pair.inputs.pinion.dedendum + pair.inputs.wheel.dedendum) / 2
     return (1 + 0.5 * (1.2 - dedendum)) * (1 - 0.02 * (20 - degrees(pair.inputs.normal_pressure_angle)))
 
 
 def mesh_stiffness(balance: LoadBalance, tangential_force: float) -> FloatArray | None:
-    """Compute the stiffness of the mesh at every roll position.
-
-    c_gamma = F_bt / [b (TE - TE_unloaded)] (Eq. L15). Returns stiffness c_gamma [Pa]; None without load.
-    """
+    """Stiffness c_gamma = F_bt/[b (TE - TE_unloaded)] at every roll position [Pa]; None without load (Eq. L15)."""
     if balance.force == 0.0:
         return None
     approach = balance.transmission_error - balance.unloaded_error
@@ -145,11 +123,7 @@ def mesh_stiffness(balance: LoadBalance, tangential_force: float) -> FloatArray 
 def stiffness(
     path: PathOfContact, balance: LoadBalance, inputs: LoadDistributionInputs, mean_load: float, tangential_force: float
 ) -> Stiffness:
-    """Return the stiffness of the mesh, and the stiffness of one pair of teeth along the path of contact.
-
-    The stiffness of one pair is the secant stiffness at the mean line load `mean_load` [N/m], or at `REFERENCE_LOAD` if
-    `mean_load` is 0.
-    """
+    """Stiffness of the mesh, and of one pair along the path: secant at `mean_load` [N/m], else `REFERENCE_LOAD`."""
     secant_load = mean_load if mean_load > 0.0 else REFERENCE_LOAD
     single = single_stiffness(balance.mesh.compliance, secant_load)
     x = np.linspace(0.0, path.length, single.size)
@@ -173,12 +147,7 @@ def stiffness(
 
 
 def transmission_error(balance: LoadBalance) -> TransmissionError:
-    """Compute extremes, mean and harmonics of the transmission error [m] (Eq. L18).
-
-    Mean and harmonics are integrals by the trapezoidal rule over the roll positions. If the transmission error of a
-    spur gear jumps at a roll position, the position occurs twice: with the value before the jump and with the value
-    after the jump. Jumps therefore cause no error of the integrals.
-    """
+    """Extremes, mean and harmonics of the transmission error, trapezoidal over both sides of jumps [m] (Eq. L18)."""
     error, phase = balance.transmission_error, balance.rolls.phase
     return TransmissionError(
         peak_to_peak=float(np.ptp(error)),
@@ -205,15 +174,11 @@ def _fourier(values: FloatArray, phase: FloatArray) -> NDArray[np.complex128]:
 def friction_loss(
     path: PathOfContact, balance: LoadBalance, load: Load, friction_coefficient: float | None
 ) -> FrictionLoss:
-    """Compute friction power, loss factor and efficiency of the mesh.
+    """Friction power [W], loss factor and efficiency of the mesh (Eq. L19).
 
-    Eq. L19: P_V = f/p_bt int sum_j int w |u1 - u2| dl dphase with u1 - u2 = (omega_1 + omega_2)(s - s_C), and H_V = P_V
-    / (f P). The sum is taken over the contact lines j, and P is the transmitted power. Here p_bt is the transverse base
-    pitch, w is the line load, s is the distance of the contact from the pinion's base tangent point, and s_C is the
-    distance of the pitch point from the pinion's base tangent point. The load factors are not used for friction power
-    and efficiency, because they raise only the load of the contacts, not the transmitted power. Returns friction power
-    [W], loss factor and efficiency [-]. Without load, the power is 0, and loss factor and efficiency are None. Without
-    a coefficient of friction, power and efficiency are None.
+    P_V = f/p_bt int sum_j int w |u1 - u2| dl dphase, u1 - u2 = (omega_1 + omega_2)(s - s_C), H_V = P_V/(f P). Load
+    factors raise contacts, not power, and are left out. Without load the power is 0 and the rest None; without
+    friction, power and efficiency are None.
     """
     if balance.force == 0.0:
         return FrictionLoss(friction_coefficient, loss_factor=None, power=0.0, efficiency=None)

@@ -98,11 +98,7 @@ def _check_resolution(inputs: LineContactInputs) -> None:
 
 
 def _check_oil(inputs: LineContactInputs) -> None:
-    """Check the viscosity and the temperatures.
-
-    In an isothermal film the bulk temperatures of the surfaces have no effect. The function then checks only the
-    temperature at the inlet.
-    """
+    """Check viscosity and temperatures; of an isothermal film only that of the inlet."""
     oil, temperatures = inputs.lubricant, inputs.temperatures
     if oil.viscosity < LOWEST_VISCOSITY:
         raise InvalidInput(
@@ -128,11 +124,7 @@ def _check_oil(inputs: LineContactInputs) -> None:
 
 
 def _check_load(inputs: LineContactInputs) -> None:
-    """Check the pressure and the expected film.
-
-    A contact is also refused if the film is much thicker than the deformation of the surfaces, because the surfaces are
-    then practically rigid.
-    """
+    """Check the pressure and the film, which must not be so thick that the surfaces are practically rigid."""
     scales = groups(inputs)
     if scales.maximum_pressure > HIGHEST_PRESSURE:
         raise InvalidInput(

@@ -52,12 +52,7 @@ class Resolution:
 
 @dataclass(slots=True)
 class Budget:
-    """Budget for Newton steps. Its unit is the cost of one step at 121 x 21 nodes.
-
-    The field `remaining` holds the part of the budget that is left, and `spent` holds the number of steps taken so far.
-    A budget can be a part of a larger budget. The field `of` then holds the larger budget, and every cost is deducted
-    from both budgets.
-    """
+    """Budget for Newton steps in units of one at 121 x 21 nodes; a part is deducted from the budget `of` too."""
 
     remaining: float
     spent: int = 0
@@ -68,10 +63,7 @@ class Budget:
         return Budget(min(most, self.remaining), of=self)
 
     def steps(self, resolution: Resolution, nodes: int) -> int:
-        """Return the number of Newton steps that the budget allows on a mesh with `nodes` nodes.
-
-        The result is at most `STEPS_A_SOLVE`.
-        """
+        """Newton steps that the budget allows on `nodes` nodes, at most `STEPS_A_SOLVE`."""
         return min(STEPS_A_SOLVE, int(self.remaining / price(resolution, nodes)))
 
     def charge(self, resolution: Resolution, nodes: int, steps: int) -> None:
@@ -92,10 +84,7 @@ def budget_for(resolution: Resolution) -> Budget:
 
 
 def price(resolution: Resolution, nodes: int) -> float:
-    """Return the cost of a Newton step: its time divided by the time of a step at 121 x 21 nodes.
-
-    The formula was fitted to measured times.
-    """
+    """Cost of a Newton step over that at 121 x 21 nodes, fitted to measured times."""
     relative = nodes / 121
     if resolution.thermal:
         return relative**2 * (0.4 + 0.4 * resolution.film_nodes / 21 + 0.2 * relative)
@@ -121,10 +110,7 @@ class Attempt:
 
 
 def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """Make attempts that start from the Hertzian pressure, until one converges or the budget is used up.
-
-    Return the converged attempt. If no attempt converges, return the attempt that is nearest to a solution.
-    """
+    """Attempts from the Hertzian pressure until one converges or the budget is used up; return the best."""
     nearest: Attempt | None = None
     for attempt in _attempts(problem, resolution, budget):
         if attempt.converged:
@@ -138,11 +124,7 @@ def solve_cold(problem: Problem, resolution: Resolution, budget: Budget) -> Atte
 
 
 def _distance(attempt: Attempt) -> tuple[int, float]:
-    """Return a key that orders attempts by their distance from a solution.
-
-    An attempt on a finer mesh is nearer to a solution. On equal meshes, an attempt with a smaller last change of
-    pressure is nearer.
-    """
+    """Key by distance from a solution: a finer mesh is nearer, then a smaller last change of pressure."""
     change = float(attempt.state.history[0].pressure_change)
     return -attempt.grid.x.size, change if np.isfinite(change) else np.inf
 
@@ -159,10 +141,7 @@ def _attempts(problem: Problem, resolution: Resolution, budget: Budget) -> Itera
 
 
 def _levels(nodes: int, ratio: float) -> list[int]:
-    """Return the numbers of nodes of successive meshes, from the coarsest mesh to `nodes`.
-
-    A mesh has at most about `ratio` times as many nodes as the mesh before it.
-    """
+    """Numbers of nodes of successive meshes up to `nodes`, each at most about `ratio` times the one before."""
     levels = [min(COARSEST, nodes)]
     while levels[-1] < nodes:
         finer = round((levels[-1] - 1) * ratio / 2) * 2 + 1
@@ -188,11 +167,9 @@ def _start(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
 
 
 def _dry_state(grid: Grid, resolution: Resolution) -> State:
-    """Return a state with Hertzian pressure and a film of the expected thickness.
+    """Hertzian pressure, scaled to carry the load on this mesh, and a film of the expected thickness h.
 
-    The pressure is scaled so that it carries the load on this mesh. On both sides of the centre, the pressure extends
-    over the half width b, or over (2 R h)^1/2 if this length is larger. Here R is the reduced radius, and h is the
-    expected film thickness.
+    The pressure extends over b, or over (2 R h)^1/2 if larger.
     """
     width = max(1.0, sqrt(2.0 * resolution.gap))
     pressure = np.sqrt(np.maximum(1.0 - (grid.x / width) ** 2, 0.0))
@@ -208,10 +185,7 @@ def _dry_state(grid: Grid, resolution: Resolution) -> State:
 
 
 def _climb(problem: Problem, resolution: Resolution, start: Attempt, levels: Sequence[int], budget: Budget) -> Attempt:
-    """Solve on one mesh after the other, from the coarsest to the finest.
-
-    Only the solution on the finest mesh has to meet the tolerances `TIGHT`; on the other meshes `LOOSE` is enough.
-    """
+    """Solve on one mesh after the other; only the finest has to meet `TIGHT`, the others `LOOSE`."""
     attempt = start
     if not resolution.thermal and len(levels) == 1:
         return attempt
@@ -264,10 +238,7 @@ def interpolate(state: State, x: FloatArray, onto: FloatArray) -> State:
 
 
 def _from_slow_film(problem: Problem, resolution: Resolution, budget: Budget) -> Attempt:
-    """On the coarsest mesh, raise both speeds in steps to their given values; then solve on the finer meshes.
-
-    At low speeds the film is thin, and the iteration for a thin film converges easily.
-    """
+    """On the coarsest mesh raise both speeds in steps (thin films converge easily), then solve on finer meshes."""
     attempt: Attempt | None = None
     for factor in (*SPEED_STEPS, 1.0):
         slower = problem._replace(

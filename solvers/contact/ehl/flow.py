@@ -86,13 +86,11 @@ def flow_moments(i: int, film: Film) -> None:
 
 @inlined_kernel
 def flow(problem: Problem, i: int, h: float, film: Film, coefficients: FlowCoefficients) -> None:
-    """Compute the flow coefficients A and B and the stream functions of column i, in place.
+    """Flow coefficients A = F1 N0/F0 - N1 and B = u1 R + du N0/F0 and stream functions of column i (Eqs. 17, E7.1).
 
-    Eqs. 17, E7.1, for a density that varies across the film: A = F1 N0/F0 - N1 and B = u1 R + du N0/F0, where R is the
-    mean density and du is u2 - u1. The symbols phi, zeta, F0, F1, N0 and N1 are those of `flow_moments`. J0 and J1 are
-    the integrals of phi and of phi zeta from surface 1 to a height zeta. `couette` is the integral of h rho (u1 + du
-    J0/F0) from surface 1 to each node. `poiseuille` is the integral of rho (F1 J0/F0 - J1)/A from surface 1 to each
-    node.
+    For a density that varies across the film; R is its mean, du is u2 - u1, J0 and J1 are the integrals of phi and of
+    phi zeta from surface 1. `couette` is the integral of h rho (u1 + du J0/F0), `poiseuille` of rho (F1 J0/F0 - J1)/A,
+    both from surface 1 to each node; the other symbols are those of `flow_moments`.
     """
     rho, effective, moments, flows = film.shear.density, film.shear.effective, film.moments[i], film.flow
     m, u1, du = rho.shape[1], problem.speed_1, problem.speed_2 - problem.speed_1
@@ -121,10 +119,7 @@ def linearise_columns(
     film: Film,
     coefficients: FlowCoefficients,
 ) -> None:
-    """Compute the derivatives of the mid-film stress, of ln A and of B in columns start..stop.
-
-    `evaluate_columns` must have computed these columns before.
-    """
+    """Derivatives of the mid-film stress, of ln A and of B in columns start..stop, after `evaluate_columns`."""
     for i in range(start, stop):
         stress_response(problem, i, at[i].h, film)
         flow_slopes(problem, i, at[i].p, film, coefficients)
@@ -132,11 +127,7 @@ def linearise_columns(
 
 @inlined_kernel
 def flow_slopes(problem: Problem, i: int, p: float, film: Film, coefficients: FlowCoefficients) -> None:
-    """Compute the derivatives of ln A and B of column i with respect to p, G, h and the nodal temperatures.
-
-    The derivatives with respect to p, G and h hold at fixed temperatures. They include the change of the mid-film
-    stress tau_m.
-    """
+    """Derivatives of ln A and B of column i by p, G, h at fixed temperatures, and by the nodal temperatures."""
     shear, moments, flows, mid = film.shear, film.moments[i], film.flow, film.mid
     m, u1, du = shear.density.shape[1], problem.speed_1, problem.speed_2 - problem.speed_1
     lean, mass, drag = moments.f1 / moments.f0, moments.n0 / moments.f0, du / moments.f0

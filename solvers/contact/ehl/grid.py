@@ -27,12 +27,10 @@ def _log_moment(t: float) -> float:
 
 @kernel
 def deflection_matrix(x: FloatArray) -> FloatArray:
-    """Compute the matrix K of elastic deflection in the film thickness H = H0 + X^2/2 + K P.
+    """Matrix K (n, n) of deflection in H = H0 + X^2/2 + K P, exact for pressures linear between the nodes (Eq. 21).
 
-    K P is the integral -(1/pi) int P ln|X - X'| dX' of Eq. 21. The E of the paper is the E' of `reduced_modulus`. The
-    paper takes the logarithm of a length, ln|x - s|, but does not state the unit of this length. Here the unit is b.
-    Another unit would change H0 only. `x`: nodes (n,) [half widths]. Returns matrix K (n, n), exact for pressures that
-    are linear between the nodes.
+    K P = -(1/pi) int P ln|X - X'| dX'. The paper's E is the E' of `reduced_modulus`; its ln|x - s| has no unit of
+    length, here b, which changes H0 only. `x` (n,) in half widths.
     """
     n = x.size
     matrix = np.zeros((n, n))
@@ -52,10 +50,9 @@ def deflection_matrix(x: FloatArray) -> FloatArray:
 
 @kernel
 def heat_matrix(x: FloatArray) -> FloatArray:
-    """Compute the matrix Wt for which int_{x_0}^{x_i} q(s) (x_i - s)^-1/2 ds = sum_j Wt[i, j] q_j.
+    """Matrix Wt (n, n): int_{x_0}^{x_i} q(s) (x_i - s)^-1/2 ds = sum_j Wt[i, j] q_j, exact for linear q (Eq. 24).
 
-    Moving line source of Carslaw and Jaeger at a high Peclet number (Eq. 24). `x`: nodes (n,), increasing [half
-    widths]. Returns matrix Wt (n, n), exact for heat fluxes q that are linear between the nodes.
+    Moving line source of Carslaw and Jaeger at a high Peclet number. `x` (n,) increasing, in half widths.
     """
     n = x.size
     matrix = np.zeros((n, n))
@@ -85,10 +82,7 @@ class Grid(NamedTuple):
 
 
 def grid_for(gap: float, nodes: int) -> Grid:
-    """Return a mesh for a film of thickness `gap` (in b^2/R).
-
-    The thickness is rounded to a power of sqrt(2), so that similar contacts share a mesh.
-    """
+    """Mesh for a film of thickness `gap` (b^2/R), rounded to a power of sqrt(2) so that contacts share meshes."""
     return _grid(round(2.0 * log2(gap)), nodes)
 
 
@@ -107,11 +101,10 @@ def _grid(half_octaves: int, nodes: int) -> Grid:
 
 
 def _graded(gap: float, nodes: int) -> FloatArray:
-    """Return the nodes (n,) from inlet to outlet.
+    """Nodes (n,) from inlet to outlet with prescribed relative distances.
 
-    The distance between neighbouring nodes is proportional to a prescribed function of the position. Let h be the film
-    thickness, b the half width and R the reduced radius. If h is much larger than b^2/R, the pressure extends over the
-    length (2 R h)^1/2. This length is then much larger than b, so the mesh need not resolve lengths of the order of b.
+    If the film h is much thicker than b^2/R, pressure extends over (2 R h)^1/2 and lengths of the order of b need no
+    nodes.
     """
     inlet = -inlet_length(gap)
     outlet = max(1.25, 1.0 + 1.2 * gap ** (2 / 3))

@@ -75,11 +75,7 @@ per heat flux at the column itself [K m^2/W].
 
 
 class Surfaces(NamedTuple):
-    """Values of both surfaces at all columns (n,).
-
-    `flux_1` and `flux_2` are the heat fluxes into the surfaces [W/m^2]. `walls` is an array with one record of type
-    WALLS per column.
-    """
+    """Values of both surfaces at all columns (n,): heat fluxes into them [W/m^2], and a record of type WALLS."""
 
     flux_1: FloatArray
     flux_2: FloatArray
@@ -87,11 +83,7 @@ class Surfaces(NamedTuple):
 
 
 class Heat(NamedTuple):
-    """The linearised heat balance of n columns with k nodes across the film.
-
-    Three arrays (n,) have one value for each column: `fluid_fraction` [-], `generated` (heat of shear) [W/m^2] and
-    `compression` (heat of compression) [W/m^2].
-    """
+    """Linearised heat balance of n columns with k nodes; heats of shear and compression (n,) in W/m^2."""
 
     column: ColumnSystem
     convection: Convection
@@ -117,11 +109,9 @@ def heat_arrays(nodes: int, film_nodes: int) -> Heat:
 
 @inner_kernel
 def face_edges(stream: FloatArray, edges: FloatArray) -> None:
-    """Compute the stream function at the edges of the cells (n, k + 1) from the stream function at the nodes (n, k).
+    """Stream function at the cell edges (n, k + 1) of each right face, half way to the next column.
 
-    The right face of a column lies half way to the next column. The results are the values on the right face of every
-    column. The inner edges lie half way between two nodes across the film, and the outermost edges lie on the surfaces.
-    The last column has no next column. For the last column, the results are the values of this column itself.
+    Inner edges lie half way between two nodes, the outermost on the surfaces; the last column keeps its own values.
     """
     n, nodes = stream.shape
     for i in range(n):
@@ -134,11 +124,7 @@ def face_edges(stream: FloatArray, edges: FloatArray) -> None:
 
 @inlined_kernel
 def surface_history(problem: Problem, i: int, surface_matrix: FloatArray, surfaces: Surfaces) -> None:
-    """Compute two results for column i: the gains, and the flash temperatures due to the heat fluxes upstream.
-
-    A gain is the temperature rise of a surface per heat flux at the column itself [K m^2/W]. Eq. 24. `surface_matrix`:
-    matrix Wt (n, n).
-    """
+    """Gains (temperature rise per own heat flux) and flash temperatures by upstream fluxes of column i (Eq. 24)."""
     surfaces.walls[i].history_1 = problem.surface_heating_1 * row_product(surface_matrix, i, 0, i, surfaces.flux_1)
     surfaces.walls[i].history_2 = problem.surface_heating_2 * row_product(surface_matrix, i, 0, i, surfaces.flux_2)
     surfaces.walls[i].gain_1 = problem.surface_heating_1 * surface_matrix[i, i]
@@ -262,16 +248,11 @@ def linearise_balances(
 def column_slopes(
     i: int, temperature: FloatArray, g: float, h: float, conductance: float, inertia: float, film: Film, heat: Heat
 ) -> None:
-    """Compute the tridiagonal matrix and the four right-hand sides of the heat balance of column i.
+    """Tridiagonal matrix and the four right-hand sides of the heat balance of column i.
 
-    The rows of the matrix are the derivatives of `column_residual` with respect to the temperatures, at a fixed
-    mid-film stress tau_m. The first right-hand side is the derivative with respect to tau_m. The other right-hand sides
-    are the negative derivatives with respect to p, G = h dp/dx and h. These three include the effect of p, G and h on
-    tau_m.
-
-    The heat that shear generates in an interval is stress times rate. Temperature and p change this heat because they
-    change the viscosity. A change of tau_m changes this heat in all intervals because it changes the stress in all
-    intervals.
+    Rows are derivatives of `column_residual` by the temperatures at fixed tau_m; the right-hand sides are its
+    derivative by tau_m and the negative ones by p, G = h dp/dx and h, which include their effect on tau_m. Shear heat
+    is stress times rate: temperature and p change it by the viscosity, tau_m in all intervals by the stress.
     """
     shear, mid, column, convection, last = film.shear, film.mid, heat.column, heat.convection, temperature.shape[1] - 1
     lower, upper, responses, t = column.lower, column.upper, column.responses, temperature
@@ -303,9 +284,9 @@ def column_slopes(
 
 @inlined_kernel
 def _scale_walls(i: int, inertia: float, heat: Heat) -> None:
-    """Turn the heat balances of the half cells at both walls into equations for the surface temperatures.
+    """Turn the balances of the half cells at both walls into equations for the surface temperatures.
 
-    The balances of these half cells contain the artificial inertia of a whole cell, so half of it is subtracted.
+    They contain the inertia of a whole cell; half of it is subtracted.
     """
     column, convection, responses, walls = heat.column, heat.convection, heat.column.responses, heat.surfaces.walls[i]
     for side in range(2):
@@ -323,12 +304,11 @@ def _scale_walls(i: int, inertia: float, heat: Heat) -> None:
 
 @inner_kernel
 def factor_columns(start: int, stop: int, film: Film, heat: Heat) -> None:
-    """Factor the systems of the columns `start` to `stop` - 1, and solve every system for its four right-hand sides.
+    """Factor the systems of columns start..stop - 1 in place and solve each for its four right-hand sides.
 
-    Thomas' algorithm factors the tridiagonal part, and the Sherman-Morrison formula adds the rank-one part. The
-    rank-one part arises because warmer oil shears at a lower stress. In a sliding film this effect makes the system
-    more stable. All arrays are changed in place: `pivot` becomes the inverse pivots, `lower` becomes the factors of the
-    forward substitution, and `upper` becomes the factors of the backward substitution.
+    Thomas' algorithm for the tridiagonal part, Sherman-Morrison for the rank-one part (warmer oil shears at a lower
+    stress, which stabilises a sliding film). `pivot` becomes its inverse, `lower` and `upper` the factors of both
+    substitutions.
     """
     column, by_temperature = heat.column, film.mid.by_temperature
     lower, pivot, upper, responses = column.lower, column.pivot, column.upper, column.responses

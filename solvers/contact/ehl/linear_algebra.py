@@ -30,10 +30,7 @@ def add_scaled(factor: float, x: FloatArray, y: FloatArray) -> None:
 
 @inlined_kernel
 def row_product(matrix: FloatArray, i: int, start: int, stop: int, vector: FloatArray) -> float:
-    """Return the scalar product of elements start..stop of row i and elements start..stop of a vector (n,).
-
-    The function computes four partial sums, for speed.
-    """
+    """Scalar product of elements start..stop of row i and of a vector (n,), in four partial sums for speed."""
     s0, s1, s2, s3 = 0.0, 0.0, 0.0, 0.0
     last = stop - (stop - start) % 4
     for j in range(start, last, 4):
@@ -48,10 +45,7 @@ def row_product(matrix: FloatArray, i: int, start: int, stop: int, vector: Float
 
 @inlined_kernel
 def _factor_panel(matrix: FloatArray, pivots: IntArray, start: int, stop: int) -> None:
-    """Eliminate the elements below the diagonal in columns start..stop.
-
-    The columns from `stop` on take part in the row exchanges of the pivoting, and are otherwise not changed.
-    """
+    """Eliminate below the diagonal in columns start..stop; later columns only take part in the row exchanges."""
     n = pivots.size
     for k in range(start, stop):
         pivot = k
@@ -84,10 +78,7 @@ def _subtract_panel(matrix: FloatArray, i: int, start: int, stop: int) -> None:
 
 @inner_kernel
 def factor(matrix: FloatArray, pivots: IntArray) -> None:
-    """Replace a matrix (n, n) by its LU factors, computed in panels of eight columns with row pivoting.
-
-    Element k of `pivots` (n,) receives the number of the row with which row k is exchanged.
-    """
+    """LU factors of a matrix (n, n) in place, panels of eight columns; `pivots` (n,) receives the exchanged rows."""
     n = pivots.size
     for start in range(0, n, PANEL):
         stop = min(start + PANEL, n)

@@ -29,10 +29,7 @@ def film_heights(problem: Problem, attempt: Attempt) -> FloatArray:
 
 
 def temperature_range(attempt: Attempt) -> float:
-    """Return the difference between the highest and lowest temperature [K].
-
-    If this difference is within the tolerance of the temperatures, the heat balance cannot be checked.
-    """
+    """Highest minus lowest temperature [K]; within the tolerance of temperatures the heat balance cannot be checked."""
     return float(np.ptp(attempt.state.temperature))
 
 
@@ -77,19 +74,13 @@ def temperature(problem: Problem, attempt: Attempt) -> ContactTemperature:
 
 
 def mid_film(t: FloatArray) -> FloatArray:
-    """Return the temperatures (n,) half way between the surfaces.
-
-    `t` (n, k) holds the temperatures at the k nodes of each of the n columns.
-    """
+    """Temperatures (n,) half way between the surfaces, from those of the nodes (n, k)."""
     middle = (t.shape[1] - 1) // 2
     return np.asarray(0.5 * (t[:, middle] + t[:, t.shape[1] // 2]))
 
 
 def friction(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> ContactFriction:
-    """Compute the friction of the film from the mid-film stress, and from the stress at both surfaces (Eq. E9).
-
-    The stress at the surfaces differs from the mid-film stress by half of h dp/dx.
-    """
+    """Friction by the mid-film stress and by that of both surfaces, which differs by half of h dp/dx (Eq. E9)."""
     work, contact = attempt.work, inputs.contact
     p = attempt.state.pressure * problem.maximum_pressure
     gradient = work.height * problem.gap_scale * work.gradient * problem.maximum_pressure / problem.half_width
@@ -114,10 +105,7 @@ def friction_by_node(problem: Problem, attempt: Attempt, inputs: LineContactInpu
 
 
 def _share(problem: Problem, attempt: Attempt, inputs: LineContactInputs) -> FloatArray:
-    """Return a factor [1/Pa] for each node (n,).
-
-    Stress times factor is the contribution of the node to the coefficient of friction.
-    """
+    """Factor [1/Pa] of each node (n,) by which its stress contributes to the coefficient of friction."""
     width = attempt.grid.weights * problem.half_width
     return width * attempt.work.heat.fluid_fraction / inputs.contact.line_load
 
@@ -153,10 +141,7 @@ def heat(problem: Problem, attempt: Attempt) -> ContactHeat:
 
 
 def _layer_edges(stream: FloatArray) -> FloatArray:
-    """Return the stream function (k + 1,) at the edges of the k layers of the film.
-
-    The inner edges lie half way between two nodes. The outer edges lie on the surfaces.
-    """
+    """Stream function (k + 1,) at the layer edges: half way between nodes, and on the surfaces."""
     return np.concatenate([stream[:1], 0.5 * (stream[1:] + stream[:-1]), stream[-1:]])
 
 

@@ -41,10 +41,9 @@ SHRINKING = 0.1  # steps count as shrinking if the ratio of a step to the step b
 
 @inlined_kernel
 def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coefficients: FlowCoefficients) -> float:
-    """Compute the flow coefficients of column i at the inlet temperature [Pa] (Eq. E7.2).
+    """Flow coefficients of column i at the inlet temperature; return the mid-film stress [Pa] (Eq. E7.2).
 
-    A Newtonian oil has A = rho/(12 eta). For another law of shear, A is this value times a factor that depends on the
-    law. B is rho um.
+    B is rho um; A is rho/(12 eta), times a factor of the law of shear.
     """
     laws = problem.laws
     term, term_slope = pressure_part(laws, p)
@@ -62,10 +61,7 @@ def uniform_film(problem: Problem, i: int, p: float, g: float, h: float, coeffic
 
 @inner_kernel
 def evaluate_isothermal(problem: Problem, grid: Grid, state: State, work: Work) -> None:
-    """Compute film thickness, stress and flow of all columns at the inlet temperature.
-
-    The last node takes over the mark `state.cavitated` of the node before it.
-    """
+    """Film, stress and flow of all columns at the inlet temperature; the last node is cavitated as its neighbour."""
     state.cavitated[-1] = state.cavitated[-2]
     film_shape(grid, state.pressure, state.separation[0], work.height)
     pressure_gradients(grid.x, state.pressure, state.cavitated, work.gradient)
@@ -124,10 +120,7 @@ def solve_isothermal(
 
 @inner_kernel
 def include_temperature(work: Work) -> None:
-    """Add the effect of the temperatures to the derivatives of ln A and B by p, G and h.
-
-    Before the call, these derivatives hold at fixed temperatures.
-    """
+    """Add the effect of the temperatures to the derivatives of ln A and B, which hold at fixed temperatures before."""
     log_a, b, responses = work.coefficients.log_a, work.coefficients.b, work.heat.column.responses
     a_slopes, b_slopes = work.film.flow.log_a_by_temperature, work.film.flow.b_by_temperature
     n, nodes = a_slopes.shape
@@ -275,10 +268,7 @@ def factor_jacobian(
 
 @inner_kernel
 def take_step(grid: Grid, state: State, step: FloatArray, step_t: FloatArray, scale: float) -> tuple[float, bool]:
-    """Change all unknowns by `scale` times the step.
-
-    If the film would close, the change is smaller; see `apply_pressure_step`.
-    """
+    """Change all unknowns by `scale` times the step, or by less if the film would close (`apply_pressure_step`)."""
     taken, joined = apply_pressure_step(grid, state.pressure, state.separation, state.cavitated, step, scale)
     n, nodes = step_t.shape
     for i in range(n):

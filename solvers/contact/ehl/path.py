@@ -39,10 +39,7 @@ SHARE_WITHOUT_HOPE = 0.1  # share of the usual number of steps that a contact ge
 
 @dataclass(slots=True)
 class _Walk:
-    """The states of the contacts solved last, the mesh of these states, and the number of consecutive failures.
-
-    After a failure there are no states.
-    """
+    """States of the contacts solved last (none after a failure), their mesh, and the number of consecutive failures."""
 
     states: list[State] = field(default_factory=list)
     grid: Grid | None = None
@@ -94,10 +91,7 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
 
 
 def _solve_next(inputs: LineContactInputs, walk: _Walk) -> LineContactResult:
-    """Solve a contact, starting from earlier solutions.
-
-    If there are no earlier solutions, or if the iteration from this start fails, solve the contact as if it were alone.
-    """
+    """Solve a contact from earlier solutions; if there are none or the iteration fails, as if it were alone."""
     constants = problem(inputs, groups(inputs))
     resolution = resolution_for(inputs)
     spent = Budget(inf)
@@ -122,10 +116,7 @@ def _attempts(constants: Problem, resolution: Resolution, walk: _Walk, spent: Bu
 
 
 def _guess(states: Sequence[State]) -> State:
-    """Extrapolate the states of earlier contacts to the next contact, and limit the result to physical values.
-
-    At nodes where the film of the last contact is broken, the film of the next contact is also assumed to be broken.
-    """
+    """Extrapolated state, limited to physical values; the film is broken where that of the last contact is."""
     last = states[-1]
     film = _extrapolated(np.array([np.append(state.pressure, state.separation) for state in states]))
     pressure = np.where(last.cavitated, 0.0, np.maximum(film[:-1], 0.0))

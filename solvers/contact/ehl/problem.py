@@ -55,10 +55,9 @@ def groups(inputs: LineContactInputs, temperature: float | None = None) -> Group
 
 
 def entry_temperature(inputs: LineContactInputs) -> float:
-    """Return the temperature [K] that the oil is expected to have where the film forms.
+    """Temperature [K] expected where the film forms, between mean bulk and inlet temperature.
 
-    This temperature lies between the mean bulk temperature of the surfaces and the inlet temperature. The larger the
-    Peclet number rho c um h^2/(lambda b) of the film, the nearer the result is to the inlet temperature.
+    The larger the film's Peclet number rho c um h^2/(lambda b), the nearer to the inlet temperature.
     """
     temperatures, oil = inputs.temperatures, inputs.lubricant
     if not inputs.model.thermal:
@@ -75,17 +74,17 @@ def entry_temperature(inputs: LineContactInputs) -> float:
 
 
 def moes_central_film(m: float, l: float) -> float:
-    """Compute the central film thickness of an isothermal, incompressible line contact (Nijenbanning and others).
+    """Central film (h/R) U^-1/2 of an isothermal, incompressible line contact (Nijenbanning and others) [-] (Eq.
 
-    Eq. E3.
+    E3).
     """
     return _moes_film(l, (3.0 / m, 2.621 * m**-0.2, 1.287 * l ** (2 / 3), 1.311 * m**-0.125 * l**0.75))
 
 
 def moes_minimum_film(m: float, l: float) -> float:
-    """Compute the minimum film thickness of an isothermal, incompressible line contact (Nijenbanning and others).
+    """Minimum film (h/R) U^-1/2 of an isothermal, incompressible line contact (Nijenbanning and others) [-] (Eq.
 
-    Eq. E3.
+    E3).
     """
     return _moes_film(l, (2.45 / m, 2.05 * m**-0.2, 1.05 * l ** (2 / 3), 0.96 * m**-0.125 * l**0.75))
 
@@ -102,10 +101,7 @@ def _moes_film(l: float, asymptotes: tuple[float, float, float, float]) -> float
 
 
 def moes_gap(contact: Groups) -> float:
-    """Return the film thickness of `moes_central_film` in units of b^2/R. Without load the result is infinity.
-
-    The grading of the mesh depends on this film thickness.
-    """
+    """Film thickness of `moes_central_film` in b^2/R, infinite without load; grades the mesh."""
     if contact.moes_m < NO_LOAD:
         return inf
     return moes_central_film(contact.moes_m, contact.moes_l) * pi / (8.0 * contact.moes_m)
@@ -186,9 +182,5 @@ def _surface_heating(solid: Solid, speed: float, scales: Groups) -> float:
 
 
 def peclet_number(solid: Solid, speed: float, scales: Groups) -> float:
-    """Compute the Peclet number of a surface.
-
-    Eq. E11: Pe = u b rho c/(2 lambda). Returns peclet number [-]; if it is below about 5, heat also spreads along the
-    surface.
-    """
+    """Peclet number u b rho c/(2 lambda) of a surface; below about 5 heat also spreads along it [-] (Eq. E11)."""
     return speed * scales.half_width * solid.density * solid.specific_heat / (2.0 * solid.thermal_conductivity)

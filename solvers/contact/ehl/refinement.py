@@ -47,10 +47,7 @@ LEAST = {
 
 
 def departure(inputs: LineContactInputs, curves: ContactCurves, field: ContactField) -> float:
-    """Return the largest amount [K] by which the reported temperatures violate the conditions of the check.
-
-    The top of this module states these conditions.
-    """
+    """Largest amount [K] by which the reported temperatures violate the conditions at the top of this module."""
     contact, bulk = inputs.contact, inputs.temperatures
     t = field.temperature
     fluxes = (curves.surface_1_heat_flux, curves.surface_2_heat_flux)
@@ -70,11 +67,9 @@ def departure(inputs: LineContactInputs, curves: ContactCurves, field: ContactFi
 
 
 def surface_heating(solid: Solid, speed: float, x: FloatArray, flux: FloatArray) -> FloatArray:
-    """Compute the temperature rise of a surface under a heat flux that varies linearly between positions [K].
+    """Temperature rise (n,) of a surface under a heat flux linear between positions: strip sources [K] (Eq. E12).
 
-    Eq. E12: (pi rho c lambda u)^-1/2 int q(s) (x - s)^-1/2 ds, for strip sources on a fast half-space (Carslaw and
-    Jaeger). `x`: positions (n,) [m]; `flux`: heat flux into the surface (n,) [W/m^2]. Returns temperature rise (n,)
-    [K].
+    (pi rho c lambda u)^-1/2 int q(s) (x - s)^-1/2 ds on a fast half-space (Carslaw and Jaeger).
     """
     effusivity_squared = solid.density * solid.specific_heat * solid.thermal_conductivity
     return strip_integral(x, flux) / sqrt(pi * effusivity_squared * speed)
@@ -82,10 +77,7 @@ def surface_heating(solid: Solid, speed: float, x: FloatArray, flux: FloatArray)
 
 @kernel
 def strip_integral(x: FloatArray, flux: FloatArray) -> FloatArray:
-    """Compute the integral of q(s) (x - s)^-1/2 over s from x_0 to each x (n,).
-
-    Integration by parts gives 2 q_0 (x - x_0)^1/2 + int 2 q' (x - s)^1/2 ds.
-    """
+    """Integral of q(s) (x - s)^-1/2 from x_0 to each x (n,), by parts 2 q_0 (x - x_0)^1/2 + int 2 q' (x - s)^1/2 ds."""
     n = x.size
     slope = np.empty(n)
     before = 0.0
@@ -104,11 +96,9 @@ def strip_integral(x: FloatArray, flux: FloatArray) -> FloatArray:
 
 
 def inlet_departure(inputs: LineContactInputs, t: FloatArray) -> float:
-    """Return the largest error [K] of the temperatures across the film at the first node.
+    """Largest error [K] across the film `t` (n, k) at the first node.
 
-    `t` (n, k) holds the temperatures of the film. At the first node, both surfaces must have their bulk temperatures.
-    Oil that flows in must have the inlet temperature. Oil that flows back out must have the temperature of the next
-    node.
+    Surfaces must have their bulk temperatures, inflow that of the inlet, backflow that of the next node.
     """
     bulk = inputs.temperatures
     walls = max(abs(t[0, 0] - bulk.surface_1), abs(t[0, -1] - bulk.surface_2))
@@ -155,17 +145,11 @@ class Comparison:
     kinks: dict[str, float]
 
     def smooth_error(self) -> MeshError:
-        """Return the error due to the fine mesh, without the effect of spikes and kinks.
-
-        This error falls quickly if the number of nodes is increased.
-        """
+        """Error due to the fine mesh without spikes and kinks; falls quickly with the number of nodes."""
         return self._error(0.0, {})
 
     def error(self) -> MeshError:
-        """Return the error due to the fine mesh, including the effect of spikes and kinks.
-
-        Even a mesh of `FINEST` nodes does not resolve spikes and kinks.
-        """
+        """Error due to the fine mesh with spikes and kinks, which even `FINEST` nodes do not resolve."""
         return self._error(min(LEFT_BY_FALL * self.fall, 1.0), self.kinks)
 
     def _error(self, left_at_spike: float, kinks: dict[str, float]) -> MeshError:
@@ -205,20 +189,15 @@ def refine(
 
 
 def is_acceptable(comparison: Comparison | None) -> bool:
-    """Return whether the error of the mesh, without the effect of spikes and kinks, is within the limit.
-
-    Spikes and kinks are left out because more nodes would not remove their effect. An unknown error is not acceptable.
-    """
+    """Whether the mesh error is known and within the limit, without spikes and kinks, which nodes do not remove."""
     return comparison is not None and comparison.smooth_error().largest <= LARGEST_MESH_ERROR
 
 
 def finer_nodes(nodes: int, comparison: Comparison | None) -> int:
-    """Return the number of nodes of the next finer mesh, at most `FINEST`.
+    """Number of nodes of the next finer mesh, at most `FINEST`.
 
-    The error is of second order. The number of intervals must therefore grow by the square root of the ratio of the
-    present error to the largest permissible error. If this ratio is above 16, the function uses 16. If the ratio is
-    unknown, the function uses 4. The square root is rounded up to a power of sqrt(2), so that different contacts are
-    solved on the same few meshes.
+    The error is of second order: intervals grow by the root of its ratio to the limit, at most 16 (unknown: 4), rounded
+    up to a power of sqrt(2) so that contacts share meshes.
     """
     excess = 4.0 if comparison is None else min(comparison.smooth_error().largest / LARGEST_MESH_ERROR, 16.0)
     half_octaves = max(ceil(log2(excess)), 1)
@@ -228,11 +207,9 @@ def finer_nodes(nodes: int, comparison: Comparison | None) -> int:
 def compare(
     inputs: LineContactInputs, constants: Problem, resolution: Resolution, attempt: Attempt
 ) -> Comparison | None:
-    """Compare a solved contact with a solution of the same contact on half as many nodes (Richardson).
+    """Compare a solved contact with half as many nodes (Richardson); None if the coarse solution fails.
 
-    Return None if the coarse solution fails. The fine solution gives the start values of the coarse solution. One
-    Newton step is usually enough. More steps are needed if the film has a pressure spike or is hot, because the peaks
-    of pressure or temperature are then too sharp for the coarse mesh.
+    One Newton step from the fine solution is usually enough; sharp peaks need more.
     """
     grid = grid_for(resolution.gap, resolution.nodes // 2 + 1)
     state = interpolate(attempt.state, attempt.grid.x, grid.x)
@@ -253,26 +230,19 @@ def _steepest_fall(attempt: Attempt) -> float:
 
 
 def _kink(attempt: Attempt, surface: int) -> float:
-    """Return the largest excess [K] of a surface temperature over the mean of its two neighbouring nodes.
+    """Largest excess [K] of a surface temperature downstream of the centre over the mean of its neighbours.
 
-    Only nodes downstream of the centre are considered. If a pressure spike heats only one node, the temperature of this
-    node depends on its distance from the spike. On another mesh, the hottest node may lie nearer to the spike. The
-    excess is an estimate of how much hotter that node would be.
+    A spike that heats one node heats it by its distance; on another mesh the node could be hotter by about this excess.
     """
     t = attempt.state.temperature[attempt.grid.x > 0.0, surface]
     return float((t[1:-1] - 0.5 * (t[:-2] + t[2:])).max())
 
 
 def _parts(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> dict[str, tuple[float, ...]]:
-    """Return the results of a contact from which the error due to the mesh is estimated.
+    """Results by which the error of the mesh is estimated, by the names of `MeshError`; no local maxima.
 
-    The keys are names of `MeshError`.
-
-    Local maxima of pressure, shear stress and film temperature are left out.
-
-    Friction, heat and flash temperatures are split into two parts, upstream and downstream of the place where pressure
-    spikes begin. A finer mesh gives a thicker film and thus less heat upstream. The finer mesh also gives a sharper
-    spike and thus more heat downstream. The two effects may cancel in the sum, and then only the parts show the error.
+    Friction, heat and flash have two parts, up- and downstream of where spikes begin: a finer mesh has a thicker film
+    and less heat upstream, a sharper spike and more heat downstream, which may cancel in the sum.
     """
     heights = measures.film_heights(constants, attempt)
     parts: dict[str, tuple[float, ...]] = {

@@ -66,13 +66,10 @@ def gradient_stencil(x: FloatArray, i: int, cavitated: BoolArray) -> tuple[int, 
 
 @inner_kernel
 def pressure_gradients(x: FloatArray, pressure: FloatArray, cavitated: BoolArray, gradient: FloatArray) -> None:
-    """Compute dP/dX at all nodes, in place.
+    """dP/dX (n,) at all nodes, in place (Eq. E14).
 
-    Eq. E14: the difference is one-sided at the inlet and at the last node before the rupture, zero where the film is
-    broken, and central at all other nodes. At the last node before the rupture the difference is forward, so that the
-    gradient vanishes if the pressure of this node vanishes. The node can then join the broken film without a jump of
-    the gradient. `x`: nodes (n,) [half widths]; `pressure`: pressures P (n,) [Hertzian pressure]; `cavitated`: whether
-    the film is broken at the nodes (n,); `gradient`: receives dP/dX (n,) [-].
+    One-sided at the inlet and the last node before the rupture, zero where the film is broken, else central. Forward at
+    the last node, the gradient vanishes with its pressure, and the node joins the broken film without a jump.
     """
     for i in range(x.size):
         left, right, factor = gradient_stencil(x, i, cavitated)
@@ -81,11 +78,7 @@ def pressure_gradients(x: FloatArray, pressure: FloatArray, cavitated: BoolArray
 
 @inner_kernel
 def _log_mean(a: float, b: float) -> tuple[float, float]:
-    """Return the logarithmic mean of e^a and e^b, and d(ln mean)/da.
-
-    The numbers e^a and e^b are the values of a coefficient at two nodes. The mean is exact if the coefficient varies
-    exponentially between the nodes.
-    """
+    """Logarithmic mean of e^a and e^b, exact for an exponential between nodes, and d(ln mean)/da."""
     half = 0.5 * (a - b)
     middle = np.exp(0.5 * (a + b))
     if abs(half) < 1e-2:
@@ -105,12 +98,10 @@ def mass_fluxes(
     coefficients: FlowCoefficients,
     faces: FaceFluxes,
 ) -> None:
-    """Compute the mass fluxes through the faces between the nodes, and some of their derivatives, in place.
+    """Mass fluxes m = B H - A H^3 dP/dX through the faces and derivatives by ln A and B, in place (Eqs. E7, E13).
 
-    The derivatives are those with respect to ln A and B. Eqs. E7, E13: m = B H - A H^3 dP/dX. The Couette part is
-    extrapolated from the two nodes upstream, with an error of second order. First-order upwinding would make the film
-    12 per cent thicker. The Poiseuille part uses the logarithmic mean of A. `x`: nodes (n,) [half widths]; `pressure`:
-    pressures P (n,) [Hertzian pressure]; `film`: film thickness H (n,) [b^2/R].
+    Couette part extrapolated to second order from the two nodes upstream (first order: film 12 % thicker), Poiseuille
+    part with the logarithmic mean of A.
     """
     couette_scale, poiseuille_scale = _flux_scales(problem)
     log_a, b = coefficients.log_a, coefficients.b
@@ -136,13 +127,7 @@ def mass_flux_slopes(
     coefficients: FlowCoefficients,
     faces: FaceFluxes,
 ) -> None:
-    """Compute the derivatives of the mass fluxes with respect to the pressures and film thicknesses.
-
-    The flux through a face depends on P and H of the nodes around the face. B and ln A of a node depend on p,
-    G = h dp/dx and h of this node. First, the function differentiates B and ln A of each node with respect to three
-    quantities: P of the node, P of the neighbouring nodes, and H of the node. The chain rule then gives the derivatives
-    of the fluxes.
-    """
+    """Derivatives of the mass fluxes by pressures and film thicknesses: chain rule over B and ln A of each node."""
     n, (couette_scale, _), b, log_a = grid.x.size, _flux_scales(problem), coefficients.b, coefficients.log_a
     slope = problem.maximum_pressure / problem.half_width
     b_by_p, a_by_p, b_by_h, a_by_h = np.zeros((n, 3)), np.zeros((n, 3)), np.empty(n), np.empty(n)
@@ -183,12 +168,7 @@ def _flux_scales(problem: Problem) -> tuple[float, float]:
 
 @inlined_kernel
 def _upstream(x: FloatArray, i: int) -> tuple[int, float]:
-    """Return the second node of the extrapolation to the face on the right of node i, and the weight of this node.
-
-    The extrapolated quantity is the product of the flow coefficient B and the film thickness H. The first node is node
-    i, and the second node is the node upstream of node i. Node 0 has no node upstream. For i = 0, the function
-    therefore returns node 1 and the weight 0.5, which gives the mean of nodes 0 and 1.
-    """
+    """Second node of the extrapolation of B H to the face on the right of node i, and its weight (0.5 at i = 0)."""
     if i == 0:
         return 1, 0.5
     return i - 1, -0.5 * (x[i + 1] - x[i]) / (x[i] - x[i - 1])
@@ -198,10 +178,7 @@ def _upstream(x: FloatArray, i: int) -> tuple[int, float]:
 def add_flux_changes(
     faces: FaceFluxes, cavitated: BoolArray, log_a: FloatArray, b: FloatArray, residual: FloatArray
 ) -> None:
-    """Update the mass balances in `residual` (n + 1,) after changes of ln A and B.
-
-    `log_a` and `b` (n,) hold the changes of ln A and B at the nodes.
-    """
+    """Update the mass balances in `residual` (n + 1,) for changes `log_a` and `b` (n,) of ln A and B."""
     before = 0.0
     for i in range(cavitated.size - 1):
         other = i - 1 if i > 0 else 1
@@ -265,10 +242,9 @@ def assemble_jacobian(grid: Grid, cavitated: BoolArray, faces: FaceFluxes, jacob
 
 @inner_kernel
 def release_cavitated(faces: FaceFluxes, cavitated: BoolArray, tolerance: float) -> bool:
-    """Move nodes from the broken to the full film if more oil flows in than out. Return whether any node was moved.
+    """Move nodes into which more oil flows than out to the full film; return whether any was moved.
 
-    A node is moved only if inflow minus outflow exceeds `tolerance` times the flux. Without this tolerance, a node at
-    the edge of the broken film can change between full and broken film for ever.
+    Only beyond `tolerance` times the flux, or a node at the edge could change sides for ever.
     """
     changed = False
     for i in range(1, cavitated.size - 1):

@@ -26,10 +26,7 @@ STRESS_LIMIT = 300.0  # largest |h dp/dx|/(2 tau0); exp(300)^2 does not overflow
 
 
 def softened(problem: Problem, stress: float) -> Problem | None:
-    """Return a copy of the problem with the law of Ree and Eyring and with `stress` [Pa] as the Eyring stress.
-
-    If the problem already has the law of Ree and Eyring with an Eyring stress of at most `stress`, return None.
-    """
+    """The problem as a Ree-Eyring one with the Eyring stress `stress` [Pa]; None if its stress is at most that."""
     if problem.rheology == REE_EYRING and stress >= problem.eyring_stress:
         return None
     return problem._replace(rheology=REE_EYRING, eyring_stress=stress)
@@ -37,10 +34,7 @@ def softened(problem: Problem, stress: float) -> Problem | None:
 
 @inner_kernel
 def limited_gradient(problem: Problem, g: float) -> float:
-    """Return G = h dp/dx, limited so that exp(G/(2 tau0)) does not overflow.
-
-    In a solution, G never reaches this limit.
-    """
+    """G = h dp/dx, limited so that exp(G/(2 tau0)) does not overflow; no solution reaches the limit."""
     if problem.rheology == NEWTONIAN:
         return g
     bound = 2.0 * STRESS_LIMIT * problem.eyring_stress
@@ -57,10 +51,7 @@ def mid_film_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) 
 
 @inlined_kernel
 def _newtonian_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
-    """Solve du/h = int (tau_m + G (zeta - 1/2))/eta dzeta for tau_m.
-
-    Here du is u2 - u1, G is h dp/dx, and zeta is the height above surface 1, divided by h.
-    """
+    """tau_m of du/h = int (tau_m + G (zeta - 1/2))/eta dzeta, with du = u2 - u1."""
     m = shear.fluidity.shape[1]
     dz, zeroth, first = 1.0 / m, 0.0, 0.0
     for j in range(m):
@@ -72,10 +63,7 @@ def _newtonian_mid_stress(problem: Problem, i: int, g: float, h: float, shear: S
 
 @inlined_kernel
 def _eyring_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shear) -> float:
-    """Compute tau_m = tau0 a, where e^a is the positive root of a quadratic equation.
-
-    If u2 < u1, the conjugate form of the root avoids cancellation.
-    """
+    """tau_m = tau0 a, e^a the positive root of a quadratic; its conjugate form for u2 < u1 avoids cancellation."""
     m = shear.fluidity.shape[1]
     tau0, dz = problem.eyring_stress, 1.0 / m
     # e^(G (zeta - 1/2)/tau0) in the first interval, and the ratio of this factor between neighbouring intervals
@@ -94,10 +82,7 @@ def _eyring_mid_stress(problem: Problem, i: int, g: float, h: float, shear: Shea
 
 @inlined_kernel
 def shear_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear) -> None:
-    """Compute the stress, the rate and the effective fluidity of column i (Eqs. E4, E5).
-
-    The function also computes the derivatives of the rate and of the effective fluidity with respect to the stress.
-    """
+    """Stress, rate and effective fluidity of column i with their derivatives by the stress (Eqs. E4, E5)."""
     if problem.rheology == NEWTONIAN:
         _newtonian_rates(i, g, tau_m, shear)
     else:
@@ -116,10 +101,7 @@ def _newtonian_rates(i: int, g: float, tau_m: float, shear: Shear) -> None:
 
 @inlined_kernel
 def _eyring_rates(problem: Problem, i: int, g: float, tau_m: float, shear: Shear) -> None:
-    """Compute the rate (tau0/eta) sinh s with s = tau/tau0, and its derivative.
-
-    Both follow from the same exponential e^s.
-    """
+    """Rate (tau0/eta) sinh(tau/tau0) and its derivative, from one exponential."""
     m = shear.fluidity.shape[1]
     per_tau0, dz = 1.0 / problem.eyring_stress, 1.0 / m
     e_s, ratio = np.exp((tau_m + g * (0.5 * dz - 0.5)) * per_tau0), np.exp(g * dz * per_tau0)

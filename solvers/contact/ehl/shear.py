@@ -102,10 +102,7 @@ def viscosities(problem: Problem, i: int, temperature: FloatArray, p: float, she
 
 @inlined_kernel
 def stress_response(problem: Problem, i: int, h: float, film: Film) -> None:
-    """Compute the derivatives of the shear stress half way across the film, at a constant sliding speed.
-
-    The derivatives of column `i` with respect to the temperatures, p, G = h dp/dx and h are written into `film.mid`.
-    """
+    """Derivatives of the mid-film stress of column i by temperatures, p, h dp/dx and h at constant sliding."""
     shear, mid, m = film.shear, film.mid, film.shear.stress.shape[1]
     height, total, by_p, by_g = 1.0 / m, 0.0, 0.0, 0.0
     for j in range(m):

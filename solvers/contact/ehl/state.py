@@ -104,11 +104,10 @@ def fluid_fractions(problem: Problem, state: State, work: Work) -> float:
 
 @inner_kernel
 def match_stream(problem: Problem, state: State, work: Work) -> None:
-    """Compute, in place, stream functions with the same mass flux in all columns (Eq. E8.1).
+    """Stream functions with the same mass flux in all columns, in place, so that convection conserves mass (Eq. E8.1).
 
-    In a full column the surfaces drag a part of the mass flux; the remaining part has the profile of pressure flow. A
-    broken column has the stream function of the last full column. Because the mass flux is the same in all columns,
-    convection conserves mass even if the iteration has not converged yet.
+    In a full column the rest beside the drag of the surfaces has the profile of pressure flow; a broken column takes
+    the stream function of the last full one.
     """
     flow, heat = work.film.flow, work.heat
     flux = fluid_fractions(problem, state, work)
@@ -125,10 +124,7 @@ def match_stream(problem: Problem, state: State, work: Work) -> None:
 
 @inner_kernel
 def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bool:
-    """Compute the residuals of all columns and faces; return whether a pressure gradient had to be limited.
-
-    The last node is marked as cavitated if the node before it is cavitated.
-    """
+    """Residuals of all columns and faces; return whether a pressure gradient had to be limited."""
     state.cavitated[-1] = state.cavitated[-2]
     limited = evaluate_flow(problem, grid, state, work)
     match_stream(problem, state, work)
@@ -139,11 +135,7 @@ def evaluate_state(problem: Problem, grid: Grid, state: State, work: Work) -> bo
 
 @inner_kernel
 def linearise_state(problem: Problem, state: State, work: Work, damping: float) -> None:
-    """Compute the derivatives of stress, flow and heat balance of all columns of an evaluated state.
-
-    The stream function, the fluid fraction, and the density in the heat of compression are held fixed.
-    `linearise_balances` explains `damping`.
-    """
+    """Derivatives of stress, flow and heat of an evaluated state at fixed stream function and fluid fraction."""
     n = work.at.size
     linearise_columns(problem, FIRST, n, work.at, work.film, work.coefficients)
     linearise_balances(problem, state.temperature, NEXT, n, work.at, damping, work.film, work.heat)

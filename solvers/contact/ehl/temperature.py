@@ -28,10 +28,9 @@ REVERSE_SWEEPS = 3  # number of sweeps if there is reverse flow, chosen; all swe
 
 @kernel
 def march_temperatures(problem: Problem, grid: Grid, state: State, work: Work) -> None:
-    """Compute a first guess of the temperatures at given pressures, one column after the other.
+    """First guess of the temperatures at given pressures, column by column in Couette flow of equal mass flux.
 
-    The flow is Couette flow with the same mass flux in all columns. The iteration of a column starts from the
-    temperatures of the preceding column, so that all columns stay on the same branch of solutions.
+    Each starts from the column before, so that all stay on the same branch of solutions.
     """
     film, heat, temperature = work.film, work.heat, state.temperature
     n, nodes = temperature.shape
@@ -79,10 +78,7 @@ def last_reverse(convection: Convection) -> int:
 
 @inlined_kernel
 def _relax_column(i: int, film: Film, heat: Heat, given: FloatArray, weight: float, step: FloatArray) -> None:
-    """Solve the linearised heat balance of column i for the temperature step, and add `given` to this step.
-
-    The latest steps of both neighbouring columns are used. `temperature_step` explains `given` and `weight`.
-    """
+    """Temperature step of column i from the latest steps beside it; see `temperature_step`."""
     from_left, from_right, residual = heat.convection.from_left, heat.convection.from_right, heat.column.residual
     n, m = step.shape[0], step.shape[1] - 1
     for k in range(m + 1):
@@ -130,12 +126,10 @@ def temperature_step(
 
 @inner_kernel
 def inlet_step(problem: Problem, work: Work, temperature: FloatArray, step: FloatArray) -> None:
-    """Compute the temperature step of the first column, in place (Eq. E8.3).
+    """Temperature step of the first column `step` (n, k), in place (Eq. E8.3).
 
-    The walls have their bulk temperatures. Oil that flows into the contact has the temperature of the inlet. Oil that
-    flows back out of the contact has the temperature of the second column. The heights at which oil flows in follow
-    from the mass flux and a uniform viscosity, so these heights do not depend on the computed temperatures.
-    `temperature`: temperatures (n, k) [K]; `step`: temperature step (n, k) [K]; receives the first column.
+    Walls have their bulk temperatures, inflow that of the inlet, backflow that of the second column; where oil flows in
+    follows from mass flux and uniform viscosity, not from the computed temperatures.
     """
     nodes = step.shape[1]
     u1, u2 = problem.speed_1, problem.speed_2

@@ -46,10 +46,7 @@ def pocket_chain(
 
 
 def _march(gas: Gas, stretch: Stretch, duct: Duct, angle: FloatArray, closure: Closure, substeps: int) -> March:
-    """March one stretch of a tooth space through the stroke.
-
-    Newton's method may stall if the flow reverses in a step. The march is then repeated with shorter steps.
-    """
+    """March one stretch through the stroke; with shorter steps where reversing flow stalls Newton's method."""
     for refinement in _REFINEMENTS:
         count = refinement * substeps
         record = empty_record(gas, angle.size, duct.cells, count * (angle.size - 1))
@@ -68,11 +65,7 @@ def _march(gas: Gas, stretch: Stretch, duct: Duct, angle: FloatArray, closure: C
 def march_chain(
     gas: Gas, duct: Duct, pockets: RecordArray, angles: FloatArray, substeps: int, record: Record, isentropic: bool
 ) -> tuple[int, float]:
-    """March the pockets over all `angles` [rad] in equal steps.
-
-    Return the number of steps, and 0 as the residual. If a step does not converge, return -1 and the residual of this
-    step instead.
-    """
+    """March the pockets over all `angles` [rad] in equal steps; return their number and 0, or -1 and a residual."""
     turn = (angles[-1] - angles[0]) / ((angles.size - 1) * substeps)
     dt = turn / duct.speed
     low, high, taken = 0, 0, 0
@@ -109,11 +102,7 @@ def _renew(
     new_high: int,
     angle: float,
 ) -> None:
-    """Fill pockets with ambient gas when their stroke begins, and update the balances of mass and energy.
-
-    In a balance, `begun` counts the gas in the pockets whose stroke begins, and `ended` counts the gas in the pockets
-    whose stroke ends.
-    """
+    """Fill pockets with ambient gas as their stroke begins (`begun`), and empty those whose stroke ends (`ended`)."""
     per_energy = gas.exponent - 1.0
     for i in range(low, high):
         if i < new_low or i >= new_high:
@@ -166,10 +155,7 @@ def _record_field(gas: Gas, pockets: RecordArray, record: Record, low: int, high
 def _record_ends(
     gas: Gas, duct: Duct, pockets: RecordArray, record: Record, low: int, high: int, dt: float, taken: int
 ) -> None:
-    """Record the flow out of both ends of the row of active pockets.
-
-    If an end of the row is an end of the duct, the flow leaves the duct. Otherwise the flow enters an idle pocket.
-    """
+    """Record the flow out of both ends of the active pockets: out of the duct, or into an idle pocket."""
     for end in range(2):
         face, outward = (low, -1.0) if end == 0 else (high, 1.0)
         open_end = (low == 0) if end == 0 else (high == duct.cells)

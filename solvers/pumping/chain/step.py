@@ -60,10 +60,7 @@ the step.
 
 
 def empty_pockets(pockets: int) -> RecordArray:
-    """Return the array of records for a chain of `pockets` pockets.
-
-    The array has one more record. This last record describes the face above the last pocket.
-    """
+    """Records of a chain of `pockets` pockets, and one more for the face above the last."""
     return records(pockets + 1, POCKET)
 
 
@@ -76,11 +73,7 @@ class Side(NamedTuple):
 
 
 class Passage(NamedTuple):
-    """Flow of mass or heat through an opening, and the derivatives of this flow.
-
-    `flow` is positive from left to right. The other fields are the derivatives of `flow` by the pressures and the
-    masses on both sides of the opening.
-    """
+    """Flow of mass or heat through an opening, positive from left to right, and its derivatives by both sides."""
 
     flow: float
     by_left_pressure: float
@@ -97,11 +90,7 @@ def ambient(gas: Gas) -> Side:
 
 @inner_kernel
 def passages(gas: Gas, left: Side, right: Side) -> tuple[Passage, Passage]:
-    """Compute the flow of mass and the flow of heat through an opening, per area of the opening.
-
-    Gas flows from the side with the higher pressure. It carries the enthalpy of this side, c_p T = c_p p A/(m R). Here
-    p, m and A are the pressure, mass and section of this side.
-    """
+    """Flows of mass and heat through an opening, per area; heat is the upstream enthalpy c_p p A/(m R)."""
     forward = left.pressure >= right.pressure
     source, sink = (left, right) if forward else (right, left)
     flux, by_p, by_p_sink = mass_flux(gas, source.pressure, source.mass / source.area, sink.pressure)
@@ -124,10 +113,9 @@ def passages(gas: Gas, left: Side, right: Side) -> tuple[Passage, Passage]:
 def advance(
     gas: Gas, width: float, discharge: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
 ) -> tuple[bool, float]:
-    """Compute pressure and mass of the active pockets at the end of a time step (Eqs. 1, 3, P5).
+    """Pressure and mass of the active pockets at the end of a time step (Eqs. 1, 3, P5).
 
-    Returns `converged`: whether Newton's method converged; `error`: largest residual, relative to the content of its
-    pocket at ambient pressure.
+    Returns whether Newton's method converged, and the largest residual over the ambient content of its pocket.
     """
     error, share, halvings, newton = np.inf, 0.0, 0, 0
     for i in range(low, high):
@@ -162,10 +150,7 @@ def _add_change(value: float, change: float) -> float:
 def _set_from_flows(
     gas: Gas, width: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
 ) -> None:
-    """Compute mass and pressure from the converged flows.
-
-    This conserves mass up to round-off. If `isentropic` is false, it also conserves energy up to round-off.
-    """
+    """Mass and pressure from the converged flows: conserves mass and, unless `isentropic`, energy to rounding."""
     g = gas.exponent
     for i in range(low, high):
         old_area, area = pockets[i].start_area, pockets[i].area
@@ -185,10 +170,7 @@ def _set_from_flows(
 def _assemble(
     gas: Gas, width: float, discharge: float, pockets: RecordArray, low: int, high: int, dt: float, isentropic: bool
 ) -> float:
-    """Set flows, residuals and Jacobian of the trial state; return the largest relative residual.
-
-    Residuals are relative to the content of a pocket at ambient pressure.
-    """
+    """Set flows, residuals and Jacobian of the trial state; return the largest residual over the ambient content."""
     error = 0.0
     _store(gas, pockets, low, high, isentropic)
     _leak(gas, discharge, pockets, low, high, dt, isentropic)
@@ -202,11 +184,7 @@ def _assemble(
 
 @inner_kernel
 def _store(gas: Gas, pockets: RecordArray, low: int, high: int, isentropic: bool) -> None:
-    """Set the residuals and derivatives that the pockets would have if no gas flowed in or out.
-
-    Without flows, a pocket keeps its mass. If `isentropic` is true, the pocket also keeps its entropy. If `isentropic`
-    is false, only the wall work changes the energy of the pocket. `_leak` and `_exchange` add the flows afterwards.
-    """
+    """Residuals and derivatives without flows: mass and, if `isentropic`, entropy stay, else wall work adds energy."""
     g = gas.exponent
     for i in range(low, high):
         p, content = pockets[i].trial.pressure, pockets[i].trial.mass
@@ -308,11 +286,10 @@ def _add_inflow(balance: Any, share: float, passage: Passage) -> None:
 
 @inner_kernel
 def _eliminate(pockets: RecordArray, low: int, high: int) -> None:
-    """Compute Newton's correction by elimination of the blocks along the chain.
+    """Newton's correction by elimination of the 2 x 2 blocks along the chain.
 
-    The forward pass solves the two balances of each pocket for the corrections of pressure and mass. `mass_balance`
-    then holds the equation for the pressure, and `heat_balance` holds the equation for the mass. The backward pass
-    computes the corrections from these equations.
+    After the forward pass `mass_balance` holds the equation of the pressure and `heat_balance` that of the mass; the
+    backward pass evaluates them.
     """
     for i in range(low, high):
         mass, heat = pockets[i].mass_balance, pockets[i].heat_balance
@@ -338,11 +315,7 @@ def _eliminate(pockets: RecordArray, low: int, high: int) -> None:
 
 @inner_kernel
 def _substitute(balance: Any, pressure: Any, mass: Any) -> None:
-    """Eliminate the pressure and the mass of the pocket below from a balance.
-
-    `_eliminate` has already solved both balances of the pocket below. `pressure` is now the equation for the pressure
-    of the pocket below, and `mass` is the equation for the mass of the pocket below.
-    """
+    """Eliminate the pocket below from a balance, by its equations `pressure` and `mass`."""
     p, m = balance.lower.by_pressure, balance.lower.by_mass
     balance.diagonal.by_pressure -= p * pressure.upper.by_pressure + m * mass.upper.by_pressure
     balance.diagonal.by_mass -= p * pressure.upper.by_mass + m * mass.upper.by_mass

@@ -12,11 +12,8 @@ WALL = floats("area", "clearance", "carried")
 class Duct(NamedTuple):
     """A stretch of a tooth space cut into equal cells.
 
-    `start` is the distance from the end that meshes first [m]. `width` is the width of a cell [m], and `cells` is the
-    number of cells. `speed` is the speed of the gear with the tooth space [rad/s]. The stroke begins later at a larger
-    distance from the end that meshes first; `lag` is this delay as an angle per length [rad/m]. Row k of `table` holds
-    the walls at the angle `first_angle` + k `angle_step` [rad]; see `wall_table`. `discharge` is the discharge
-    coefficient.
+    `start`, `width` in m; `lag` [rad/m] is the delay of the stroke along the face. Row k of `table` holds the walls at
+    the owner's angle `first_angle` + k `angle_step` [rad].
     """
 
     start: float
@@ -31,11 +28,10 @@ class Duct(NamedTuple):
 
 
 class Wall(NamedTuple):
-    """Walls of a tooth space at one position on the face and at one angle of the gear.
+    """Walls of a tooth space at one position and angle.
 
-    `area` is the cross-section of the space [m^2], and `clearance` is the sum of the clearances on both sides [m].
-    `carried` [m^2] is the volume of gas per metre of face that the moving flanks have carried out of the space since
-    the stroke began.
+    `area` [m^2], `clearance` of both sides [m], and the gas per metre of face that the flanks have `carried` out of the
+    space since the stroke began [m^2].
     """
 
     area: float
@@ -52,11 +48,7 @@ def wall_table(area: FloatArray, clearance: FloatArray, carried: FloatArray) -> 
 
 @inner_kernel
 def wall_at(duct: Duct, z: float, angle: float) -> Wall:
-    """Interpolate the walls at the position z [m] for an `angle` [rad] of the gear to which the space belongs.
-
-    Before the stroke, return the walls at the start of the stroke. After the stroke, return the walls at the end of the
-    stroke.
-    """
+    """Walls at the position z [m] for an `angle` [rad] of the owner; outside the stroke those of its ends."""
     position = (angle - duct.lag * z - duct.first_angle) / duct.angle_step
     table = duct.table
     last = table.size - 1
@@ -104,11 +96,7 @@ def stroke_end(duct: Duct) -> float:
 
 @inner_kernel
 def stroke_share(duct: Duct, z: float, angle: float, turn: float) -> float:
-    """Compute the fraction of a time step that lies within the stroke at the position z [m].
-
-    At the start of the time step, the gear with the tooth space has the angle `angle` [rad]. During the step this gear
-    turns by `turn` [rad].
-    """
+    """Share of a step of `turn` [rad] from `angle` [rad] that lies within the stroke at the position z [m]."""
     phase = angle - duct.lag * z
     inside = min(phase + turn, stroke_end(duct)) - max(phase, duct.first_angle)
     return min(max(inside / turn, 0.0), 1.0)

@@ -52,13 +52,10 @@ def gas(ambient: Ambient) -> Gas:
 
 @inlined_kernel
 def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tuple[float, float, float]:
-    """Compute the square G^2 of the mass flux, and the derivatives of G^2 with respect to both pressures.
+    """Square of the mass flux, G^2 = 2 g/(g - 1) p rho y (y - x), and its derivatives by both pressures (Eq. P4).
 
-    Eq. P4: G^2 = 2 g/(g - 1) p rho y (y - x), where x is the ratio of the pressures and y = x^(1/g) is the ratio of the
-    densities. The result keeps its relative accuracy however small the pressure drop is. Returns `squared`: square of
-    the mass flux [kg^2/(s^2 m^4)]; for a negative drop, a linear continuation with negative values; `by_upstream`:
-    derivative with respect to the upstream pressure at a fixed density upstream [kg^2/(s^2 m^4 Pa)]; `by_downstream`:
-    derivative with respect to the downstream pressure [kg^2/(s^2 m^4 Pa)].
+    x is the pressure ratio, y = x^(1/g) the density ratio; accurate however small the drop. A negative drop continues
+    it linearly. Derivatives hold at a fixed density upstream. In SI units.
     """
     power = 1.0 / gas.exponent
     if drop <= 0.0:
@@ -78,12 +75,7 @@ def flux_squared(gas: Gas, upstream: float, density: float, drop: float) -> tupl
 
 @inner_kernel
 def _expansion(power: float, drop: float) -> tuple[float, float]:
-    """Compute the density ratio y of an isentropic expansion, and the difference y - x.
-
-    Here x = 1 - drop is the pressure ratio, and y = x^power. If the drop is small, x and y are nearly equal. The
-    difference y - x is then computed from the series
-    1 - y = power drop (1 + (1 - power)/2 drop (1 + (2 - power)/3 drop (1 + ...))).
-    """
+    """Density ratio y = x^power of an isentropic expansion to x = 1 - drop, and y - x, for small drops by series."""
     if drop > _SMALL:
         x = 1.0 - drop
         y = x**power
@@ -97,11 +89,9 @@ def _expansion(power: float, drop: float) -> tuple[float, float]:
 
 @inner_kernel
 def mass_flux(gas: Gas, upstream: float, density: float, downstream: float) -> tuple[float, float, float]:
-    """Compute the mass flux G through an opening, and the derivatives of G with respect to both pressures.
+    """Mass flux through an opening and its derivatives by both pressures, at fixed density upstream (Eq. P4).
 
-    Eq. P4 without the discharge coefficient. Returns `flux`: mass flux [kg/(s m^2)]; `by_upstream`: derivative with
-    respect to the upstream pressure at a fixed density upstream [kg/(s m^2 Pa)]; `by_downstream`: derivative with
-    respect to the downstream pressure [kg/(s m^2 Pa)].
+    Without the discharge coefficient; kg/(s m^2).
     """
     drop = (upstream - downstream) / upstream
     if drop < _LINEAR:

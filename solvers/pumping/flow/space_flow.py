@@ -68,10 +68,7 @@ def empty_record(gas: Gas, angles: int, cells: int, steps: int) -> Record:
 
 @inner_kernel
 def add_outflow(record: Record, end: int, step: int, mass: float, energy: float) -> None:
-    """Record the mass [kg] and the energy [J] that left through one end in a step.
-
-    `end` is 0 for the low end and 1 for the high end.
-    """
+    """Record mass [kg] and energy [J] that left through the low (0) or high (1) end in a step."""
     if end == 0:
         record.mass[0].low_end += mass
         record.energy[0].low_end += energy
@@ -106,10 +103,7 @@ def include_speed(extremes: RecordArray, mach: float, velocity: float) -> None:
 
 @inner_kernel
 def include_demand(extremes: RecordArray, mach: float, end: int) -> None:
-    """Update the stroke's largest demands with a new demand `mach` at one end of the duct, negative for inflow.
-
-    `end` is 0 for the low end and 1 for the high end.
-    """
+    """Include a Mach number at the low (0) or high (1) end, negative for inflow, in the stroke's largest."""
     if end == 0:
         extremes[0].front_out = max(extremes[0].front_out, mach)
         extremes[0].front_in = max(extremes[0].front_in, -mach)
@@ -148,11 +142,7 @@ class ExitMasses:
 
 @dataclass(frozen=True, slots=True)
 class EndFlow:
-    """Mass that leaves through the ends of the face in each step; arrays of shape (steps,).
-
-    `time` [s] is the middle of the step. `front` and `rear` [kg] are the masses that leave through the front end and
-    through the rear end.
-    """
+    """Mass [kg] that leaves both ends of the face in each step (steps,), and the middle of the step `time` [s]."""
 
     time: FloatArray
     front: FloatArray

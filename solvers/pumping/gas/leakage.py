@@ -57,10 +57,10 @@ class Stage(NamedTuple):
 def implicit_stage(
     gas: Gas, walls: Walls, mass: float, momentum: float, energy: float, h: float, guess: float
 ) -> Stage:
-    """Compute the exchange of a cell with its walls over one stage of the backward Euler method (Eq. P7).
+    """Exchange of a cell with its walls over one stage of the backward Euler method (Eq. P7).
 
-    In a cell without gaps, only the flanks carry gas out, and the gas does work on the walls. For such a cell,
-    `stiffness` [m^2] in the code is the internal energy before the stage divided by the pressure after the stage.
+    Without gaps only the flanks carry gas and the gas works on the walls; `stiffness` [m^2] is then the inner energy
+    before over the pressure after.
     """
     g, area = gas.exponent, walls.area
     into, carried = max(-walls.transport, 0.0) * gas.density, max(walls.transport, 0.0) / area
@@ -105,12 +105,7 @@ def _unphysical() -> Stage:
 
 @inner_kernel
 def _improve(flux: float, squared: float, slope: float) -> float:
-    """Return the positive root x of x^2 = squared + slope (x - flux); return 0 if there is no positive root.
-
-    This equation is the nozzle law, linearised at the flux `flux`. The root x is the next approximation of the flux.
-    `squared` is the square of the flux by the nozzle law, and `slope` is the derivative of `squared` with respect to
-    the flux. `slope` must not be positive.
-    """
+    """Positive root x of x^2 = squared + slope (x - flux), the linearised nozzle law, or 0; `slope` <= 0."""
     constant = squared - slope * flux
     if constant <= 0.0:
         return 0.0
@@ -121,21 +116,13 @@ def _improve(flux: float, squared: float, slope: float) -> float:
 
 @inner_kernel
 def _is_settled(change: float, content: float, drop: float) -> bool:
-    """Return whether the error of the flux is within tolerance after a Newton step.
-
-    The step has changed the `content` of the cell [kg/m] by `change` [kg/m]. `drop` is the relative pressure drop.
-    Newton's method leaves out the second derivative of the flux. The resulting relative error of the flux is at most
-    about 2 (change / content)^2 / drop.
-    """
+    """Whether the error of the flux, about 2 (change/content)^2/drop after a Newton step, is within tolerance."""
     return 2.0 * change**2 <= _TOLERANCE * content**2 * max(drop, 0.0)
 
 
 @inlined_kernel
 def _outflow(gas: Gas, walls: Walls, stiffness: float, mass: float, inner: float, h: float, guess: float) -> float:
-    """Compute the leakage [kg/(s m)] out of a cell whose pressure is above ambient pressure.
-
-    `inner` is the internal energy of the cell before the leakage [J/m].
-    """
+    """Leakage [kg/(s m)] out of a cell above ambient pressure; `inner` is its energy before [J/m]."""
     g, area, gap = gas.exponent, walls.area, walls.gap
     thinning = 1.0 / (1.0 + h * max(walls.transport, 0.0) / area)
     ambient = gas.pressure / inner

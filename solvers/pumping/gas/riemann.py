@@ -32,10 +32,9 @@ class Conserved(NamedTuple):
 
 @inner_kernel
 def flux(g: float, area: float, state: State, ram: float) -> Conserved:
-    """Compute the flux of a state through an area: A (rho u, rho u^2 + p, u (rho E + p)).
+    """Flux A (rho u, rho u^2 + p, u (rho E + p)) of a state through an area, rho E = p/(g - 1) + rho u^2/2 (Eq. P6).
 
-    Eq. P6 with rho E = p/(g - 1) + rho u^2/2. The caller computes the ram pressure, because the rounding of the ram
-    pressure matters: a march amplifies a difference in the last digit to 1e-7 of a result.
+    The caller computes the ram pressure: a march amplifies its last digit to 1e-7 of a result.
     """
     rho, u, p = state
     return Conserved(area * rho * u, area * (ram + p), area * u * (g / (g - 1.0) * p + 0.5 * ram))
@@ -89,13 +88,11 @@ def _star_flux(g: float, state: State, s: float, s_m: float) -> Conserved:
 
 @inner_kernel
 def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
-    """Compute the state of a face that opens into the ambient, and the demand of this face (Eq. P8).
+    """State of a face that opens into the ambient, and its demand (Eq. P8).
 
-    `cell`: state of the cell at the face, with the velocity positive outwards. Returns `face`: state of the face.
-    Outflow expands to the ambient pressure. If this expansion would lead to more than Mach 1, the outflow only expands
-    to Mach 1. Inflow comes from ambient gas at rest. If the cell is supersonic outwards, the face has the state of the
-    cell; `demand`: mach number of an expansion to the ambient pressure; negative for inflow, which expands to the
-    pressure of the cell. If the magnitude of the demand is above 1, the face is choked, or the cell is supersonic.
+    `cell` has its velocity positive outwards. Outflow expands to ambient pressure, at most to Mach 1; inflow comes from
+    rest; a supersonic cell keeps its state. The demand is the Mach number of the full expansion, negative for inflow;
+    beyond 1 the face is choked.
     """
     g = gas.exponent
     rho, v, p = cell
@@ -118,17 +115,11 @@ def reservoir_face(gas: Gas, cell: State) -> tuple[State, float]:
 
 @inner_kernel
 def front_face(gas: Gas, speed: float, cell: State) -> State:
-    """Compute the state of the gas at a border that moves at `speed` [m/s] into gas at rest.
+    """State at a border that moves at `speed` [m/s] into gas at rest; `cell` is the state behind it.
 
-    `cell` is the state of the gas behind the border. Seen from the border, the gas ahead is a head wind. The border is
-    therefore treated as a face to a reservoir with the stagnation state of this head wind. The head wind is limited to
-    the speed of sound. Real waves do not reach a border that moves faster than sound. But the grid spreads waves over
-    several cells, and without the limit the border would stop these waves.
-
-    Two simpler conditions at the border fail. If the gas at the border always has ambient pressure, a jet follows the
-    border. If the gas at the border alternately has ambient pressure and no velocity, waves are reflected with the
-    pressure rho c u. This pressure is proportional to the speed u, but the correct pressure is proportional to the
-    square of the speed.
+    Seen from the border the gas ahead is a head wind: a reservoir with its stagnation state, at most sonic, because the
+    grid spreads waves that in reality do not reach a faster border. Ambient pressure at the border would let a jet
+    follow it; ambient pressure and rest in turn would reflect waves with rho c u instead of a pressure of second order.
     """
     g, head = gas.exponent, min(speed, gas.sound_speed)
     warming = 1.0 + 0.5 * (g - 1.0) * (head / gas.sound_speed) ** 2
@@ -149,15 +140,10 @@ def front_face(gas: Gas, speed: float, cell: State) -> State:
 
 @inner_kernel
 def _inflow(gas: Gas, invariant: float, cell_sound_speed: float) -> tuple[State, float]:
-    """Compute the state of ambient gas at the face through which this gas flows from rest into a cell.
+    """State of ambient gas at the face through which it flows into a cell, and its Mach number without the sonic limit.
 
-    Also return the Mach number of the inflow without the limit of the speed of sound.
-
-    The inflow is at most sonic. Where the inflow meets the gas of the cell, both gases have the same pressure and the
-    same velocity, but they may have different temperatures. The `invariant` v + 2c/(g-1) holds in the gas of the cell.
-    `cell_sound_speed` is the speed of sound [m/s] in the gas of the cell after an expansion to ambient pressure. In the
-    code, `ratio` is the speed of sound at the face divided by the speed of sound in the ambient gas. This ratio is the
-    larger root of a quadratic equation.
+    Pressure and velocity are continuous, temperature is not; v + 2c/(g-1) = `invariant` holds in the cell. `ratio`, the
+    speed of sound over ambient, is the larger root of a quadratic.
     """
     g, stagnation = gas.exponent, gas.sound_speed
     slope, jet = 2.0 / (g - 1.0) * cell_sound_speed, 2.0 / (g - 1.0) * stagnation**2

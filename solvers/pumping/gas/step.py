@@ -135,10 +135,7 @@ def step(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float, ord
 
 @inner_kernel
 def _set_slopes(cells: Cells, low: int, high: int, order: int) -> None:
-    """Compute limited slopes of the state over the cells.
-
-    If density or pressure would be nearly 0 at an edge of a cell, all slopes of this cell are 0.
-    """
+    """Limited slopes of the state; 0 in a cell whose density or pressure would nearly vanish at an edge."""
     state, slope = cells.state, cells.slope
     for i in range(low, high):
         if order == 1 or high - low < 3:
@@ -166,11 +163,7 @@ def _put_slope(slope: RecordArray, i: int, density: float, velocity: float, pres
 
 @inner_kernel
 def _limited(side: int, back: float, ahead: float) -> float:
-    """Return the limited slope of a cell from the differences to the two neighbouring cells.
-
-    `side` is 0 in inner cells, which have van Leer's slope. `side` is -1 in the first and 1 in the last active cell,
-    which have the slope `_end_slope`.
-    """
+    """Limited slope from both differences: van Leer's in inner cells (`side` 0), `_end_slope` in the end cells."""
     if side < 0:
         return _end_slope(back, ahead)
     if side > 0:
@@ -180,11 +173,7 @@ def _limited(side: int, back: float, ahead: float) -> float:
 
 @inner_kernel
 def _end_slope(nearest: float, next_one: float) -> float:
-    """Compute the limited slope in an end cell from the two differences that are nearest to this cell.
-
-    The result is the slope of the parabola through the values of the end cell and its two neighbours. It is limited to
-    twice the nearest difference. If its sign differs from the sign of the nearest difference, the result is 0.
-    """
+    """Slope of an end cell by a parabola, of the sign of the nearest difference and at most twice as large."""
     slope = 1.5 * nearest - 0.5 * next_one
     if slope * nearest <= 0.0:
         return 0.0
@@ -231,10 +220,7 @@ def _predict(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float)
 
 @inner_kernel
 def _own_flux(g: float, area: float, edge: State) -> Conserved:
-    """Compute the flux through a face of a cell from the state `edge` of this cell at the face.
-
-    The function `ram_pressure` is not used. It multiplies in another order, and the flux would be rounded differently.
-    """
+    """Flux through a face of a cell from its state `edge` there."""
     return flux(g, area, edge, edge.density * edge.velocity**2)
 
 
@@ -253,10 +239,7 @@ def _edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
 
 @inner_kernel
 def _safe_edge(w: RecordArray, s: RecordArray, i: int, side: float) -> State:
-    """Extrapolate the state w like `_edge`, but return the state of the cell if the result is not safe.
-
-    The result is not safe if its density or pressure is below a tenth of the value of the cell.
-    """
+    """`_edge`, or the state of the cell if density or pressure would fall below a tenth of it."""
     edge = _edge(w, s, i, side)
     if edge.density < 0.1 * w[i].density or edge.pressure < 0.1 * w[i].pressure:
         return State(w[i].density, w[i].velocity, w[i].pressure)
@@ -281,11 +264,7 @@ def _set_fluxes(gas: Gas, duct: Duct, cells: Cells, low: int, high: int) -> None
 
 @inner_kernel
 def _put_flux(gas: Gas, cells: Cells, face: int, outward: float, state: State) -> None:
-    """Store the flux of a state through a face.
-
-    The velocity in `state` is positive if the gas leaves the active cells. `outward` is -1 if the face is the low end
-    of the duct, and 1 at every other face.
-    """
+    """Store the flux of a state, its velocity positive outwards; `outward` is -1 at the low end, else 1."""
     through, fluxes = flux(gas.exponent, cells.face_area[face], state, ram_pressure(state)), cells.flux
     fluxes[face].mass, fluxes[face].energy = outward * through.mass, outward * through.energy
     fluxes[face].momentum = through.momentum
@@ -304,11 +283,7 @@ def _set_end(gas: Gas, cells: Cells, cell: int, face: int, end: int) -> None:
 
 @inner_kernel
 def _correct(gas: Gas, duct: Duct, cells: Cells, low: int, high: int, dt: float) -> bool:
-    """Compute mass, momentum and energy of the cells at the end of the step.
-
-    The exchange with the walls is computed in two implicit stages. If one of the two fails, the exchange is computed in
-    a single stage instead. Return False if the single stage also fails.
-    """
+    """Content of the cells at the end of the step; two implicit wall stages, else a single one. False if that fails."""
     fluxes, area, c, h = cells.flux, cells.face_area, cells.content, _DIAGONAL * dt
     loss, leak = cells.loss, cells.leak
     for i in range(low, high):

@@ -17,11 +17,7 @@ _SLIVER = 1e-9  # share of the face width; a shorter stretch between two grooves
 
 @dataclass(frozen=True, slots=True)
 class Stretch:
-    """Stretch of the face between grooves, cut into `cells` slices of equal `width` [m].
-
-    The stretch reaches from `start` to `start + cells * width` [m]. `opens_front` tells whether the stretch begins at
-    the front end of the face, and `opens_rear` tells whether the stretch ends at the rear end.
-    """
+    """Stretch of the face between grooves from `start` [m], in `cells` slices of `width` [m]; open at face ends."""
 
     start: float
     width: float
@@ -41,12 +37,9 @@ class Stretch:
 
 
 def stretches(face_width: float, grooves: tuple[Groove, ...], slices: int, least: int) -> list[Stretch]:
-    """Cut the face between its grooves into about `slices` slices of nearly equal width.
+    """Cut the face between its grooves into about `slices` slices, at least `least` in every stretch.
 
-    Every stretch has at least `least` slices, and no slice overlaps a groove.
-
-    Raises InvalidInput (`groove_outside`) if a groove reaches beyond the face or if the grooves cover the whole face.
-    Raises InvalidInput (`groove_overlap`) if two grooves overlap.
+    Raises InvalidInput (`groove_outside`, `groove_overlap`).
     """
     edges = [0.0]
     for k, groove in sorted(enumerate(grooves), key=lambda pair: pair[1].position):

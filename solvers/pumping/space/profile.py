@@ -27,19 +27,13 @@ def involute(roll: float, base: float) -> float:
 
 @inner_kernel
 def sector(roll: float, base: float) -> float:
-    """Compute the area [m^2] between an involute and the centre of its base circle: 1/2 integral r^2 dpsi.
-
-    The area extends from the start of the involute to the point at the roll length `roll` [m].
-    """
+    """Area 1/2 int r^2 dpsi [m^2] between an involute up to the roll length `roll` [m] and the centre."""
     return roll**3 / (6.0 * base)
 
 
 @inner_kernel
 def sector_to_involute(space: ToothSpace, roll: float) -> float:
-    """Compute the area [m^2] between the gear's axis and the profile of its tooth space, up to a point of the involute.
-
-    The area begins at the centre line of the space. The point of the involute has the roll length `roll` [m].
-    """
+    """Area [m^2] between the axis and the profile from the centre line of the space to the roll length `roll` [m]."""
     base = space.base_radius
     return space.root.sector_area + sector(roll, base) - sector(space.root.involute_roll, base)
 
@@ -53,10 +47,7 @@ def _distance_to_fillet(fillet: RackFillet, t: float, radius: float, angle: floa
 
 @inner_kernel
 def _nearest_on_fillet(fillet: RackFillet, radius: float, angle: float) -> tuple[float, float]:
-    """Find the point of the fillet nearest to (radius, angle).
-
-    Returns the arc parameter [rad] of the nearest point, and the distance [m] of this point from (radius, angle).
-    """
+    """Arc parameter [rad] of the fillet's point nearest to (radius, angle), and its distance [m]."""
     step = fillet.end / (_SCAN - 1)
     best, nearest = 0, np.inf
     for k in range(_SCAN):
@@ -76,10 +67,7 @@ def _nearest_on_fillet(fillet: RackFillet, radius: float, angle: float) -> tuple
 
 @inner_kernel
 def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[float, float]:
-    """Find the point of the tooth space's flank nearest to the point (radius, angle).
-
-    Returns the roll length [m] of the nearest point, and the distance [m] between both points.
-    """
+    """Roll length [m] of the flank's point nearest to (radius, angle), and its distance [m]."""
     base, start = space.base_radius, space.root.involute_roll
     if radius > base:
         roll = np.sqrt(radius**2 - base**2)
@@ -96,14 +84,9 @@ def _foot_on_flank(space: ToothSpace, radius: float, angle: float) -> tuple[floa
 
 @inner_kernel
 def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[float, float, float, float]:
-    """Find the point of the tooth space's profile nearest to the point (radius, angle).
+    """Nearest point of one half of the profile to (radius, angle).
 
-    Only one half of the symmetric profile is searched. Returns four values:
-
-    - the distance [m] between both points
-    - the radius [m] of the nearest point
-    - the angle [rad] of the nearest point
-    - the area [m^2] between the gear's axis and the profile, from the centre line of the space to the nearest point
+    Returns its distance [m], radius [m], angle [rad] and the area [m^2] up to it from the centre line.
     """
     root, base = space.root, space.base_radius
     roll, distance = _foot_on_flank(space, radius, angle)
@@ -125,10 +108,7 @@ def nearest_on_profile(space: ToothSpace, radius: float, angle: float) -> tuple[
 
 @inner_kernel
 def foot_on_mate(space: ToothSpace, radius: float, angle: float) -> tuple[float, float]:
-    """Find the point of the mating tooth's flank nearest to the point (radius, angle).
-
-    Returns the roll length [m] of the nearest point, and the distance [m] between both points.
-    """
+    """Roll length [m] of the mating flank's point nearest to (radius, angle), and its distance [m]."""
     base = space.mate_base_radius
     foot = 0.0
     if radius > base:
@@ -146,11 +126,7 @@ def foot_on_mate(space: ToothSpace, radius: float, angle: float) -> tuple[float,
 def from_mate(
     space: ToothSpace, angle: float, mate_angle: float, mate_roll: float
 ) -> tuple[float, float, float, float]:
-    """Find the point of the tooth space's profile nearest to a point of the mating tooth's flank.
-
-    The point of the flank has the roll length `mate_roll` [m]. Only one half of the symmetric profile is searched.
-    Returns the same values as `nearest_on_profile`.
-    """
+    """`nearest_on_profile` of the mating flank's point at the roll length `mate_roll` [m]."""
     radius = np.hypot(space.mate_base_radius, mate_roll)
     mu = mate_angle - space.mate_base_half_angle + involute(mate_roll, space.mate_base_radius)
     x, y = radius * np.sin(mu), space.centre_distance - radius * np.cos(mu)
@@ -159,10 +135,7 @@ def from_mate(
 
 @inner_kernel
 def from_own(space: ToothSpace, angle: float, mate_angle: float, roll: float) -> tuple[float, float]:
-    """Find the point of the mating tooth's flank nearest to a point of the tooth space's flank.
-
-    The point of the space's flank has the roll length `roll` [m]. Returns the same values as `foot_on_mate`.
-    """
+    """`foot_on_mate` of the space's flank point at the roll length `roll` [m]."""
     radius = np.hypot(space.base_radius, roll)
     theta = angle - space.base_half_angle - involute(roll, space.base_radius)
     x, y = radius * np.sin(theta), space.centre_distance - radius * np.cos(theta)

@@ -31,11 +31,7 @@ class Section(NamedTuple):
 
 @inner_kernel
 def _area_part(space: ToothSpace, own_x: float, own_y: float, mate_x: float, mate_y: float, mate_roll: float) -> float:
-    """Compute an area [m^2] that belongs to the left or the right side of a tooth space.
-
-    The area extends from the axis of the gear to which the tooth space belongs up to three lines: the narrowest section
-    of this side, the flank of the mating gear, and the tip of the mating gear.
-    """
+    """Area [m^2] of one side of a space from the owner's axis to the narrowest section, the mate's flank and tip."""
     base = space.mate_base_radius
     under_flank = sector(space.mate_tip_roll, base) - sector(mate_roll, base)
     section = 0.5 * (own_y * mate_x - own_x * mate_y) - 0.5 * space.centre_distance * mate_x
@@ -46,11 +42,7 @@ def _area_part(space: ToothSpace, own_x: float, own_y: float, mate_x: float, mat
 def _close(
     space: ToothSpace, angle: float, mate_angle: float, own_radius: float, own_half_angle: float, mate_roll: float
 ) -> float:
-    """Compute the area that `_area_part` returns [m^2], if the narrowest section lies between two given points.
-
-    The first point lies on the profile of the tooth space (`own_radius` [m], `own_half_angle` [rad]). The second point
-    lies on the flank of the other gear (`mate_roll` [m]).
-    """
+    """`_area_part` [m^2] if the narrowest section lies between a point of the profile and one of the mating flank."""
     mate_radius = np.hypot(space.mate_base_radius, mate_roll)
     mu = mate_angle - space.mate_base_half_angle + involute(mate_roll, space.mate_base_radius)
     theta = angle - own_half_angle
@@ -106,11 +98,9 @@ def _flank_section(
 
 @inner_kernel
 def _carried(space: ToothSpace, roll: float, gap: float) -> float:
-    """Compute the volume of gas per face width [m^2] that rolling flanks have carried through a gap of `gap` [m].
+    """Gas per face width [m^2] that rolling flanks have carried through a gap, positive towards growing roll lengths.
 
-    The volume is positive if the gas moves towards growing roll lengths. The gas moves with the mean of the rolling
-    velocities of both flanks. The contribution of a flank is set to 0 at the angle at which the rolling velocity of
-    this flank is 0.
+    It moves with the mean of both rolling velocities, counted from where each is 0.
     """
     facing = space.line_of_action - gap
     roll = min(max(roll, facing - space.mate_tip_roll), space.tip_roll)
@@ -120,18 +110,11 @@ def _carried(space: ToothSpace, roll: float, gap: float) -> float:
 
 @inner_kernel
 def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tuple[float, float, float]:
-    """Compute the values of the left or the right side of a tooth space.
+    """Area [m^2], clearance [m] and carried gas per face width [m^2] of one side of a tooth space.
 
-    Returns the area [m^2], the clearance [m], and the volume of gas per face width [m^2] that the flanks have carried
-    through the narrowest section of this side.
-
-    If flanks face each other, the narrowest section lies on the line of action. The distance between the flanks is then
-    `gap` [m]. If `gap` is 0, the clearance is 0 wherever the line of action meets both involutes. Both involutes start
-    at their base circles, even if a gear is undercut. The calculation of the path of contact makes the same assumption.
-
-    If the gap is wide, a tip corner may be closer to the other gear than the flanks are to each other. The clearance is
-    then the distance between this tip corner and the other gear. The area is still bounded by the section on the line
-    of action.
+    Facing flanks have their narrowest section on the line of action, at the distance `gap` [m]; involutes start at base
+    circles even if undercut, as in the path of contact. A tip corner may be closer: it then sets the clearance, and the
+    area is still bounded on the line of action.
     """
     roll = space.pitch_roll + space.base_radius * (angle - space.pitch_half_angle)
     mate_roll = space.line_of_action - roll - gap
@@ -150,11 +133,9 @@ def _side(space: ToothSpace, angle: float, mate_angle: float, gap: float) -> tup
 
 @inner_kernel
 def section(space: ToothSpace, angle: float) -> Section:
-    """Compute the section of a tooth space at an angle of its owner (Eqs. 5, P3).
+    """Section of a tooth space at an angle of its owner, 0 on the line of centres (Eqs. 5, P3).
 
-    On the coast side, the gap between the flanks lies on the line of action. The flanks carry gas through this gap: out
-    of the space if the owner of the space drives, else into the space. `angle`: angle of the owner, 0 if the space is
-    on the line of centres [rad].
+    On the coast side the flanks carry gas through the gap on the line of action: out if the owner drives, else in.
     """
     mate_angle = angle * space.ratio + space.offset
     left_gap = 0.0 if space.owner_drives else space.backlash_gap

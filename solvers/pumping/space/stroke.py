@@ -21,13 +21,10 @@ JUMP = 0.01
 
 @record
 class StrokeTable:
-    """One stroke of a tooth space at equal steps of the owner's angle [rad], arrays of shape (positions,).
+    """One stroke of a tooth space at equal steps of the owner's angle [rad], arrays (positions,).
 
-    `area` is in [m^2]; `clearance_left` and `clearance_right` are in [m]. `carried` is the area of the gas that the
-    flanks have carried out of the space through its narrowest sections since the stroke began [m^2].
-
-    The table holds the accumulated area and not its rate. The rate can jump between two positions, and an interpolated
-    rate would then be inconsistent with the interpolated `area`.
+    `carried` [m^2] is the gas that the flanks have carried out since the stroke began; its rate may jump between
+    positions and would not fit the interpolated `area`.
     """
 
     limits: StrokeLimits
@@ -70,10 +67,9 @@ class StrokeTable:
 
 
 def stroke_table(space: ToothSpace, *, minimum_gap: float = 0.0, positions: int = POSITIONS) -> StrokeTable:
-    """Tabulate area and clearances of the space over its stroke.
+    """Area and clearances (at least `minimum_gap` [m]) of the space over its stroke.
 
-    A clearance smaller than `minimum_gap` [m] is replaced by `minimum_gap`.
-    Raises InvalidInput: tooth_space_closed if no area is left; tooth_space_minima if the area has several minima.
+    Raises InvalidInput: tooth_space_closed; tooth_space_minima if the area has several minima.
     """
     limits = stroke_limits(space)
     angle = np.linspace(limits.start, limits.end, positions)

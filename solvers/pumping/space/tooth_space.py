@@ -53,11 +53,7 @@ class ToothSpace(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class StrokeLimits:
-    """Angles [rad] that limit the stroke of a tooth space; they are angles of the gear to which the space belongs.
-
-    The mating gear's tooth is in the space from `start` to `end`. It is in contact from `contact_start` to
-    `contact_end`.
-    """
+    """Owner's angles [rad] between which the mating tooth is in the space, and in contact."""
 
     start: float
     contact_start: float
@@ -85,11 +81,7 @@ def _thinning(pair: GearPair, normal_backlash: float) -> float:
 
 
 def tooth_space(pair: GearPair, extra_backlash: float, gap: Gap, *, of_pinion: bool) -> ToothSpace:
-    """Describe a tooth space of the pinion or of the wheel, and the mating gear's tooth in this space.
-
-    `extra_backlash` [m] is the normal backlash due to thinner teeth of the mating gear. Raises InvalidInput
-    `pointed_tooth` if these teeth are pointed. Raises the errors of `path_of_contact`.
-    """
+    """Tooth space and mating tooth, thinned by `extra_backlash` [m]; raises `pointed_tooth` if that is pointed."""
     path, whole = path_of_contact(pair), pair.line_of_action
     first, last = (path.start, path.end) if of_pinion else (whole - path.end, whole - path.start)
     owner, mate = (pair.pinion, pair.wheel) if of_pinion else (pair.wheel, pair.pinion)

@@ -68,10 +68,7 @@ def films(conditions: Conditions, contacts: Contacts) -> Films:
 
 
 def flash_temperature(conditions: Conditions, contacts: Contacts) -> FloatArray:
-    """Compute the flash temperature of contacts [K].
-
-    Eq. M4 of the chapter on micropitting; formula 80 of ISO/TR 15144-1.
-    """
+    """Flash temperature of contacts [K]. Eq. M4 of the chapter on micropitting; formula 80 of ISO/TR 15144-1."""
     pressure, radius, pinion_speed, wheel_speed = contacts
     conducted = _effusivity(conditions.pinion) * np.sqrt(pinion_speed) + _effusivity(conditions.wheel) * np.sqrt(
         wheel_speed
