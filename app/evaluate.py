@@ -77,10 +77,7 @@ def answer(endpoint: str, request: dict[str, Any]) -> dict[str, Any]:
 
 
 def answer_of(path: str, request: Request) -> bytes:
-    """Solve a request to the endpoint `path` and return the answer as JSON.
-
-    This function runs in a worker process.
-    """
+    """Solve a request to the endpoint `path` and return the answer as JSON. This function runs in a worker process."""
     return json_answer(BY_PATH[path], request)
 
 

@@ -20,22 +20,7 @@ MEDIA_TYPES: dict[Format, str] = {
 
 
 def written(figure: Figure, image_format: Format, theme: ThemeName) -> bytes:
-    """Draw a figure as an image, or write the numbers of the figure as a table.
-
-    Parameters
-    ----------
-    figure : Figure
-        The data of the figure.
-    image_format : {"svg", "png", "pdf", "csv"}
-        Format of the file; "csv" is the table, the other formats are images.
-    theme : {"light", "dark"}
-        Colours of the image.
-
-    Returns
-    -------
-    bytes
-        Content of the file.
-    """
+    """Draw a figure as an image, or write the numbers of the figure as a table."""
     if image_format == "csv":
         return table(figure)
     from app.figures.drawing.image import draw  # noqa: PLC0415  only workers draw; the import takes half a second and 70 MB

@@ -12,11 +12,7 @@ OWN = "this case"
 
 
 def compared(figure: Figure, variant: Figure, name: str) -> Figure:
-    """Add the curves of another case to the figure of a case, and return the combined figure.
-
-    `variant` is the same figure of the other case, and `name` is the name of that case. Maps are placed beside each
-    other if there are two of them, and below one another if there are more.
-    """
+    """Add the curves of another case to the figure of a case, and return the combined figure."""
     unsolved = figure.unsolved + variant.unsolved
     if any(panel.map is not None for panel in figure.panels):
         maps = _maps({OWN: figure, name: variant})
@@ -35,11 +31,7 @@ def _key(panel: Panel) -> tuple[str, str | None]:
 
 
 def _overlaid(panel: Panel, other: Panel, name: str) -> Panel:
-    """Return `panel` with those parts of `other` added that differ from the parts of `panel`.
-
-    Parts are curves, edges of filled shapes, bars, rows, limits and references. If `panel` has areas, all marks of
-    `other` are added too.
-    """
+    """Return `panel` with those parts of `other` added that differ from the parts of `panel`."""
     own = {(level.name, level.value) for level in panel.levels}
     levels = (level for level in other.levels if (level.name, level.value) not in own)
     added: dict[str, list[Any]] = {
@@ -93,11 +85,7 @@ def _bars(panel: Panel, other: Panel) -> list[Line]:
 
 
 def _rows(panel: Panel, other: Panel, name: str) -> list[Row]:
-    """Return the rows of `other` that differ from the rows of `panel`.
-
-    If `panel` has a row of the same name, the returned row is drawn over the row of `panel`. If `panel` has no row of
-    this name, the returned row is drawn as a further row.
-    """
+    """Return the rows of `other` that differ from the rows of `panel`."""
     own_rows, rows = {row.name: row for row in panel.rows}, []
     for row in other.rows:
         own = own_rows.get(row.name)

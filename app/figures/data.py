@@ -70,11 +70,7 @@ class Axis:
 
     @property
     def label(self) -> str:
-        """Text at the axis: title, symbol and unit.
-
-        The symbol stands before the first comma or opening parenthesis of the title. If the title has neither, the
-        symbol stands at the end of the title.
-        """
+        """Text at the axis: title, symbol and unit."""
         title = re.sub(r"(?=,| \(|$)", f" {self.symbol}", self.title, count=1) if self.symbol else self.title
         return f"{title},{NO_BREAK}{self.unit}" if self.unit else title
 

@@ -15,10 +15,7 @@ Named = TypeVar("Named", Level, Span)
 def curve(
     x: Axis, y: Axis, along: Values, data: Values, hue: Hue = Hue.BLUE, *, marked: bool = False, **panel: Any
 ) -> Panel:
-    """Return a panel with one curve. The title of the ordinate names the curve.
-
-    If `marked` is set and the greatest value of the curve is above zero, there is a mark at this value.
-    """
+    """Return a panel with one curve. The title of the ordinate names the curve."""
     line = Line(y.title, along, data, hue, named=False)
     marks = extreme([line], y.unit) if marked and np.nanmax(line.y, initial=0.0) > 0.0 else []
     return Panel(x=x, y=y, lines=[line], marks=marks, **panel)
@@ -38,10 +35,7 @@ def orders(title: str, y: Axis, first: int, series: Mapping[str, Sequence[float]
 
 
 def extreme(curves: Sequence[Line], unit: str | None = None, *, least: bool = False) -> list[Mark]:
-    """Return a list with one mark at the greatest value of all lines, or at the least value if `least` is set.
-
-    The text of the mark is this value. The list is empty if no point has a value.
-    """
+    """Return a list with one mark at the greatest value of all lines, or at the least value if `least` is set."""
     pick, at = (min, np.nanargmin) if least else (max, np.nanargmax)
     extremes = [(line, int(at(line.y))) for line in curves if np.isfinite(line.y).any()]
     if not extremes:
@@ -51,10 +45,7 @@ def extreme(curves: Sequence[Line], unit: str | None = None, *, least: bool = Fa
 
 
 def extreme_of_map(chart: Map, wording: Callable[..., str] = number, *, least: bool = False) -> Mark:
-    """Return a mark at the greatest value of a map, or at the least value if `least` is set.
-
-    The text of the mark is this value.
-    """
+    """Return a mark at the greatest value of a map, or at the least value if `least` is set."""
     at = int(np.nanargmin(chart.values) if least else np.nanargmax(chart.values))
     row, column = np.unravel_index(at, chart.values.shape)
     text = wording(float(chart.values[row, column]), chart.unit)
@@ -62,8 +53,5 @@ def extreme_of_map(chart: Map, wording: Callable[..., str] = number, *, least: b
 
 
 def unnamed(items: Iterable[Named]) -> list[Named]:
-    """Return copies of levels or spans without their names.
-
-    If several panels show the same levels or spans, only one of the panels shows the names.
-    """
+    """Return copies of levels or spans without their names."""
     return [replace(item, name="") for item in items]

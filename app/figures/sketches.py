@@ -18,11 +18,7 @@ POINTS = 25  # points per fillet or flank
 
 
 def transverse_section(inputs: GearPairInputs) -> Figure:
-    """Draw the teeth in contact, the path of contact with its points, and the usable flanks.
-
-    The pitch point is the origin. The pinion lies below the pitch point and drives towards positive abscissae. The
-    teeth are in contact at the pitch point, or at the middle of the path if the pitch point is not on the path.
-    """
+    """Draw the teeth in contact, the path of contact with its points, and the usable flanks."""
     path = meshing_path(inputs)
     pair, angle = path.pair, path.pair.working_pressure_angle
     along, tangent = np.array([cos(angle), sin(angle)]), path.pitch_point

@@ -71,10 +71,7 @@ def sentence(limit: dict[str, Any]) -> str:
 
 
 def overlap(limited: Limited) -> Figure:
-    """Draw the probability densities of the limit and of the output in the worst case.
-
-    A panel below shows the range of the output in each case.
-    """
+    """Draw the probability densities of the limit and of the output in the worst case."""
     limit, axis, rows = limited.found, replace(limited.output, magnitude=False), []
     for case in limited.cases:
         if case.quantiles is not None:
@@ -92,10 +89,7 @@ def overlap(limited: Limited) -> Figure:
 
 
 def _densities(limit: dict[str, Any], axis: Axis) -> Panel:
-    """Return a panel with the probability densities of the limit and of the output in the worst case.
-
-    Both densities are scaled to the same height. If the limit does not scatter, a straight line shows the limit.
-    """
+    """Return a panel with the probability densities of the limit and of the output in the worst case."""
     curves, levels = list[tuple[str, Values, Values, Hue]](), list[Level]()
     mean, deviation, histogram = limit["mean"], limit["deviation"], limit["histogram"]
     if edges := histogram["edges"]:
@@ -116,10 +110,7 @@ def _densities(limit: dict[str, Any], axis: Axis) -> Panel:
 
 
 def chances(limited: Limited) -> Figure:
-    """Draw the probability of violating the limit, for each case and for the whole spectrum.
-
-    The probability for a case assumes that this case is the only case of the spectrum.
-    """
+    """Draw the probability of violating the limit, for each case and for the whole spectrum."""
     limit = limited.found
     if is_tiny(limit):
         raise NoFigure(
@@ -137,11 +128,7 @@ def chances(limited: Limited) -> Figure:
 
 
 def deciding(limited: Limited) -> Figure:
-    """Draw which cases and which tolerances decide whether a machine violates the limit.
-
-    The first panel shows, for each case, the percentage of machines for which this case is the worst case. The second
-    panel shows the strongest rank correlations, at most `NAMED`, of tolerances with the output in the worst case.
-    """
+    """Draw which cases and which tolerances decide whether a machine violates the limit."""
     rows = [Row(case.name, 100.0 * case.decides) for case in limited.cases if case.decides is not None]
     if not rows:
         raise NoFigure(

@@ -96,10 +96,7 @@ def figures_of(grid: Grid) -> dict[str, Figure]:
 
 
 def curve(grid: Grid) -> Figure:
-    """Draw the output over the varied field.
-
-    Ranges without a valid output are shaded, and doubtful points have rings.
-    """
+    """Draw the output over the varied field."""
     x, own = grid.x, grid.x.own
     line = Line(grid.output.title, x.values, grid.values, named=False)
     levels, spans, start = _limit(grid), list[Span](), 0
@@ -238,10 +235,7 @@ def _second_difference(x: Values, y: Values) -> float:
 
 
 def answer(grid: Grid) -> str:
-    """Return the answer to the question of a sweep as a sentence.
-
-    The sentence compares the output with its limit. If there is no limit, the sentence states the range of the output.
-    """
+    """Return the answer to the question of a sweep as a sentence."""
     finite = np.isfinite(grid.values)
     if grid.best is None:
         return ""
@@ -283,11 +277,7 @@ class Influence(NamedTuple):
 
 
 def influence(output: Axis, value: float, influences: list[Influence]) -> Figure:
-    """Draw a bar for the influence of each input, the most influential input first.
-
-    The hue of a bar shows whether the output rises or falls. A star marks an input if the output has a kink at the
-    present value of this input.
-    """
+    """Draw a bar for the influence of each input, the most influential input first."""
     moving = [item for item in influences if item.change][:MOST_ROWS]
     title = f"What moves the {output.title} most"
     if not moving:

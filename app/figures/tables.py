@@ -21,18 +21,7 @@ class Column(NamedTuple):
 
 
 def table(figure: Figure) -> bytes:
-    """Write the numbers of a figure as CSV; a missing value is an empty cell.
-
-    Parameters
-    ----------
-    figure : Figure
-        The data of the figure.
-
-    Returns
-    -------
-    bytes
-        Content of the file.
-    """
+    """Write the numbers of a figure as CSV; a missing value is an empty cell."""
     columns = columns_of(figure)
     return csv_of([[column.header for column in columns], *zip_longest(*(column.content for column in columns))])
 
@@ -49,11 +38,7 @@ def columns_of(figure: Figure) -> list[Column]:
 
 
 def _columns(panel: Panel) -> Iterator[tuple[str, Iterable[Item]]]:
-    """Yield the headers and the contents of all columns of a panel.
-
-    Lines, bars, polygons and bands have columns for the abscissa and the ordinates. If the panel shows named rows, a
-    map or limits, there are also columns for these.
-    """
+    """Yield the headers and the contents of all columns of a panel."""
     abscissa = _header(panel.x.title, panel.x)
     for line in (*panel.bars, *panel.lines, *panel.shapes):
         name = line.title if line.title == panel.y.title else f"{line.title}: {panel.y.title}"

@@ -24,11 +24,7 @@ def shown(data: T) -> T:
 
 
 def axis(data: Any, name: str, title: str = "", **options: Any) -> Axis:
-    """Return the axis of a quantity that a dataclass declares.
-
-    The axis has the unit and the symbol of the quantity. Its title is `title`, or the title of the quantity if `title`
-    is empty.
-    """
+    """Return the axis of a quantity that a dataclass declares."""
     declared = quantities(data if isinstance(data, type) else type(data))[name]
     unit = UNITS[declared.unit].symbol if declared.unit else None
     return Axis(title or declared.title, unit, **{"symbol": declared.symbol or "", **options})
@@ -40,10 +36,7 @@ def axis_of(leaf: Leaf, **options: Any) -> Axis:
 
 
 def _converted(value: Any, declared: Quantity | None) -> Any:
-    """Convert a value from SI into the unit that its field declares.
-
-    If the value is a dataclass, this unit also applies to those of its fields that declare no unit.
-    """
+    """Convert a value from SI into the unit that its field declares."""
     number = declared.from_si if declared else lambda number: number
     return converted(value, number, partial(_copied, declared=declared))
 

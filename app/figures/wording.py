@@ -16,18 +16,12 @@ _SUBSCRIPT = re.compile(r"(?<!\w)([^\W\d_²³]{1,2})_([^\W_²³]+(?:,[^\W_²³]+
 
 
 def subscripts(text: str, typeset: Callable[[str, str], str]) -> str:
-    """Replace every symbol such as `h_a` in a text.
-
-    `typeset` takes the letter and the subscript of a symbol and returns the replacement.
-    """
+    """Replace every symbol such as `h_a` in a text."""
     return _SUBSCRIPT.sub(lambda match: typeset(*match.groups()), text)
 
 
 def number(value: float, unit: str | None = None, digits: int = 3) -> str:
-    """Return a value with its unit as text, with `digits` significant digits and a true minus sign.
-
-    If the value has more than `digits` digits before the decimal point, all of these digits are written.
-    """
+    """Return a value with its unit as text, with `digits` significant digits and a true minus sign."""
     value += 0.0  # no negative zero
     if value != 0.0 and not PLAIN[0] <= abs(value) < PLAIN[1]:
         mantissa, exponent = f"{value:.{digits - 1}e}".split("e")

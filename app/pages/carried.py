@@ -63,11 +63,7 @@ def _use(asked: Asked, other: Calculation) -> Use:
 
 
 def _common(calculation: Calculation, name: str) -> str:
-    """Return the name under which a link keeps the field `name` of a calculation.
-
-    In calculations of gears, the section `operation` in `name` is replaced by `load`, provided that requests of
-    scuffing have a field of this new name.
-    """
+    """Return the name under which a link keeps the field `name` of a calculation."""
     if subject_of(calculation) != "pair" or not name.startswith(OPERATION):
         return name
     renamed = f"{LOAD}{name.removeprefix(OPERATION)}"

@@ -110,10 +110,7 @@ class Asked:
 
     @property
     def outdated(self) -> list[str]:
-        """The changes to the solvers since the link was made.
-
-        The list is empty if the link does not contain a hash of the solvers' source code.
-        """
+        """The changes to the solvers since the link was made."""
         return changes_since(self.views.get("sources", ""))
 
     @property
@@ -141,10 +138,7 @@ class Asked:
         return self.beside(self.ref)
 
     def beside(self, ref: str) -> str:
-        """Return the address of the page that compares the case with the case in the query `ref`.
-
-        If `ref` is empty, the page shows no comparison.
-        """
+        """Return the address of the page that compares the case with the case in the query `ref`."""
         also = self.views.get("also") if ref else None
         views = {"ref": ref, "also": also, "pair": self.views.get("pair"), "theme": self.theme, "title": self.title}
         return link(self.path, self.pairs, **views, **self.file, sources=SHORT_SOURCES)
@@ -192,10 +186,7 @@ def opened(content: bytes, root: str) -> Asked:
 
 
 def key_of(path: str, pairs: Pairs) -> str:
-    """Return the key under which the answer of a case is kept.
-
-    The key is a hash of `path` and of the fields of the case. The order of the fields does not matter.
-    """
+    """Return the key under which the answer of a case is kept."""
     return sha256(repr((path, sorted(pairs))).encode()).hexdigest()
 
 
@@ -250,11 +241,7 @@ def faults_of(error: Exception, calculation: Calculation) -> list[FormFault]:
 
 
 def _titled(message: str, path: str, calculation: Calculation) -> str:
-    """Replace the names of fields in a message by the titles of these fields.
-
-    Two fields in different sections may have the same name. If the section of the field `path` has a field with the
-    name, the name stands for this field.
-    """
+    """Replace the names of fields in a message by the titles of these fields."""
     section, _, own = path.rpartition(".")
     models = (calculation.request, calculation.response)
 

@@ -45,10 +45,7 @@ class Chart:
 
 
 def figure_of(declaration: Declaration, case: SolvedCase, variant: SolvedCase | None) -> Figure:
-    """Return a figure of the case; raise NoFigure if the case does not have this figure.
-
-    If `variant` is given and has the same figure, the curves of `variant` are added for comparison.
-    """
+    """Return a figure of the case; raise NoFigure if the case does not have this figure."""
     figure = declaration.figure(case.request, case.response)
     if variant is None:
         return figure
@@ -79,10 +76,7 @@ def figures_of(
 
 
 def linked(declaration: Declaration, figure: Figure | None, asked: Asked) -> Chart:
-    """Return the chart of a figure. The page loads the image and the values of the chart from separate addresses.
-
-    The chart has a second image for dark pages unless the page has a theme.
-    """
+    """Return the chart of a figure. The page loads the image and the values of the chart from separate addresses."""
     return Chart(
         name=declaration.name,
         title=figure.title if figure else declaration.title,
@@ -95,10 +89,7 @@ def linked(declaration: Declaration, figure: Figure | None, asked: Asked) -> Cha
 
 
 def embedded(name: str, figure: Figure, theme: ThemeName | None) -> Chart:
-    """Return the chart of a figure whose image and values are part of the page.
-
-    The chart has a second image for dark pages unless the page has a theme.
-    """
+    """Return the chart of a figure whose image and values are part of the page."""
     return Chart(
         name=name,
         title=figure.title,
@@ -124,11 +115,7 @@ def _data_address(image: bytes) -> str:
 
 
 def in_columns(figures: Iterable[Figure]) -> list[tuple[Figure, str]]:
-    """Draw the figures for a report with two columns. Return figures and images in the order of the report.
-
-    Images are addresses of the scheme `data:`. Figures that fit into one column come first, in pairs of similar height.
-    Figures that need the whole width come last.
-    """
+    """Draw the figures for a report with two columns. Return figures and images in the order of the report."""
     from app.figures.drawing.image import draw_for_report, size  # noqa: PLC0415  only workers draw
 
     placed = [(drawn, _data_address(image)) for drawn, image in map(draw_for_report, figures)]
@@ -167,10 +154,7 @@ def _cell(item: Item) -> str:
 
 
 def _panels(figure: Figure) -> list[dict[str, Any]]:
-    """Return the curves of each panel, and the position of the panel as fractions of the image.
-
-    Panels without curves are left out.
-    """
+    """Return the curves of each panel, and the position of the panel as fractions of the image."""
     from app.figures.drawing.image import places  # noqa: PLC0415  only workers draw
 
     panels = []

@@ -21,11 +21,7 @@ DIGITS = 6  # significant digits; because of the tolerances of the solvers, fewe
 
 
 def values(case: SolvedCase, title: str) -> bytes:
-    """Return the CSV table of a case: identifying lines, all inputs with their defaults, and all scalar results.
-
-    The identifying lines state the title, the endpoint, the version of the models, and the hashes of the sources and of
-    the case.
-    """
+    """Return the CSV table of a case: identifying lines, all inputs with their defaults, and all scalar results."""
     response = case.response
     identity = {
         "title": title,
@@ -49,10 +45,7 @@ def values(case: SolvedCase, title: str) -> bytes:
 
 
 def curves(response: Response) -> dict[str, str]:
-    """Return the titles of groups that hold curves, and the titles of curves outside groups.
-
-    The keys are the paths of these groups and curves.
-    """
+    """Return the titles of groups that hold curves, and the titles of curves outside groups."""
     listed = (
         entry
         for entry in entries(response)

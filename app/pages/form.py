@@ -140,11 +140,7 @@ def anchor(path: str) -> str:
 
 
 def link_to(request: type[Request], path: str) -> str:
-    """Return the link to a field or section on the page of the case.
-
-    If the request has no field or section at this path, return the link to the nearest section around the path, or to
-    the form if there is no such section.
-    """
+    """Return the link to a field or section on the page of the case."""
     sections = branches(request)
     while path and leaf_at(request, path) is None and path not in sections:
         path = path.rpartition(".")[0]
@@ -181,11 +177,7 @@ def form(request: type[Request], state: FormState) -> tuple[FormSection, ...]:
 
 
 def _section(title: str, blocks: Iterable[Block], state: FormState, paths: list[str], **settled: Any) -> FormSection:
-    """Return a section of the form, with the fields of the request at or below `paths`.
-
-    `settled` holds further attributes of the section. The section is open if its attribute `needed` is True, or if one
-    of its fields is given, has a fault or affects a verdict.
-    """
+    """Return a section of the form, with the fields of the request at or below `paths`."""
     groups = (state.texts, state.faults, state.assumed, state.deciding)
     given, faulty, assumed, deciding = (sum(_count(names, path) for path in paths) for names in groups)
     attributes: dict[str, Any] = {
@@ -206,10 +198,7 @@ def _count(names: Iterable[str], path: str) -> int:
 
 
 def _branch(branch: Branch, path: str, state: FormState, item: int | None = None) -> FormSection:
-    """Return the part of the form that shows a section of the request.
-
-    If the section is an item of a list, `item` is the index of the section in the list.
-    """
+    """Return the part of the form that shows a section of the request."""
     given = _count(state.texts, path) > 0
     switch = None
     if branch.optional and not branch.required:  # the switch adds the section even if all its fields are empty
@@ -293,11 +282,7 @@ def _blocks(branch: Branch, prefix: str, state: FormState) -> Iterator[Block]:
 
 
 def _choices(branch: Branch) -> dict[str, tuple[Leaf, ...]]:
-    """Return the groups of alternative fields. Only one field of each group may be given.
-
-    A key is the path of a field, and the value under this key is the group that contains the field. A group is left out
-    if one of its fields is also in an earlier group.
-    """
+    """Return the groups of alternative fields. Only one field of each group may be given."""
     fields = {_last(leaf.path): leaf for leaf in branch.leaves}
     choices: dict[str, tuple[Leaf, ...]] = {}
     for group in branch.model.exclusive:
@@ -317,10 +302,7 @@ def _choice(group: tuple[Leaf, ...], prefix: str, state: FormState, required: st
 
 
 def _own(leaf: Leaf, name: str, state: FormState) -> FieldView:
-    """Return the view of a field that has no alternative fields.
-
-    The view of a matrix contains a view of each element.
-    """
+    """View of a field that has no alternative fields. The view of a matrix contains a view of each element."""
     whole, resolved = field_view(leaf, name, state), state.resolved.get(name)
     if leaf.dimensions < MATRIX:
         return whole
@@ -375,12 +357,7 @@ def _placeholder(leaf: Leaf, value: Any) -> str:
 
 
 def _options(leaf: Leaf, text: str, used: Any) -> tuple[tuple[str, str], ...]:
-    """Return the values and labels of the options of a field; empty if the field has no options.
-
-    The option for the default has an empty value, unless the user typed the default; if an answer used a value for an
-    option left open, the label of this option says which. The text in the field is always an
-    option, even if this text is not permissible.
-    """
+    """Return the values and labels of the options of a field; empty if the field has no options."""
     named = {str(option): words(str(option)) for option in leaf.options}
     if leaf.kind == "boolean":
         named = {"true": "yes", "false": "no"}

@@ -74,10 +74,7 @@ def functions_page(root: str) -> str:
 
 
 def chapter_of(calculation: Calculation) -> Chapter:
-    """Return the chapter about a calculation.
-
-    If the calculation has no chapter of its own, return the chapter about the model to which the calculation belongs.
-    """
+    """Return the chapter about a calculation."""
     own = calculation.path.rpartition("/")[2]
     return chapters()[own if own in chapters() else model_of(calculation)]
 
@@ -100,11 +97,7 @@ def method_of(chapter: Chapter) -> dict[str, Any]:
 
 @cache
 def _results_at() -> dict[str, str]:
-    """Return a list of results, as HTML, for each place of the manual that describes how results are computed.
-
-    A place is a section or an equation. The keys are the addresses of the places. A page shows the list of a place only
-    if the reader followed a link to this place.
-    """
+    """Return a list of results, as HTML, for each place of the manual that describes how results are computed."""
     named = dict[str, dict[str, None]]()
     for calculation in CALCULATIONS:
         for leaf in leaves(calculation.response):
@@ -132,11 +125,7 @@ class Symbol(NamedTuple):
 
 @cache
 def symbols_of(chapter: Chapter) -> list[Symbol]:
-    """Return the symbols that a chapter needs, sorted.
-
-    These are the symbols of the inputs of the chapter's calculations, and the symbols of the results whose computation
-    the chapter describes. A symbol is repeated only if it has several titles.
-    """
+    """Return the symbols that a chapter needs, sorted."""
     symbols = dict[tuple[str, str], Symbol]()
     for calculation in CALCULATIONS:
         own = leaves(calculation.request) if chapter_of(calculation) == chapter else ()
@@ -169,10 +158,7 @@ class ShownStudy:
     figure: str
 
     def address(self, file: str = "", **views: str) -> str:
-        """Return the address of the study's page.
-
-        If `file` is given, for example "/figures/curve.svg", return the address of this file of the study instead.
-        """
+        """Return the address of the study's page."""
         return link(f"{self.path}/{self.page}{file}", self.pairs, **self.controls, **views)
 
 
@@ -189,11 +175,7 @@ def shown_studies() -> dict[str, ShownStudy]:
 
 
 def _html(text: str, root: str, chapter: str | None = None) -> Markup:
-    """Convert Markdown of the manual to HTML, and put the prefix `root` before addresses of the service.
-
-    `chapter` is the name of a chapter. If `chapter` is given, each section and each equation of the chapter is followed
-    by the list of the results that the section or equation computes.
-    """
+    """Convert Markdown of the manual to HTML, and put the prefix `root` before addresses of the service."""
     html = _markdown().render(text, {"chapter": chapter})
     return Markup(re.sub(r'\b(href|src|srcset)="/', rf'\1="{root}/', html))  # noqa: S704
 
@@ -216,10 +198,7 @@ def headings(chapter: Chapter) -> dict[str, str]:
 
 @cache
 def _markdown() -> MarkdownIt:
-    """Return the converter for Markdown with tables, equations and anchors.
-
-    Dollar signs enclose the equations, and headings have anchors.
-    """
+    """Return the converter for Markdown with tables, equations and anchors."""
     markdown = MarkdownIt("commonmark", {"html": True}).enable("table")
     markdown.use(anchors_plugin, max_level=3)
     markdown.use(dollarmath_plugin, allow_labels=False, renderer=lambda text, _: _mathml(text, "inline"))
@@ -252,11 +231,7 @@ def _figures_stand_alone(state: Any) -> None:
 def _math_block(
     _self: RendererHTML, tokens: Sequence[Token], place: int, _options: OptionsDict, environment: dict[str, Any]
 ) -> str:
-    """Return the HTML of an equation.
-
-    If the equation has a number, the number is shown and used as the anchor. The list of the results that the equation
-    computes then follows.
-    """
+    """Return the HTML of an equation."""
     text = tokens[place].content
     tag = _TAG.search(text)
     math = _mathml(_TAG.sub("", text).strip(), "block")
@@ -278,21 +253,14 @@ def _heading_close(
 
 
 def _results(environment: dict[str, Any], section: str) -> str:
-    """Return a list, as HTML, of the results that a section or an equation computes; empty if there are no results.
-
-    `section` is the anchor of the section or equation. `environment` holds the name of the chapter.
-    """
+    """Return a list, as HTML, of the results that a section or an equation computes; empty if there are no results."""
     return _results_at().get(f"/manual/{environment.get('chapter')}#{section}", "")
 
 
 def _image(
     renderer: RendererHTML, tokens: Sequence[Token], place: int, options: OptionsDict, environment: dict[str, Any]
 ) -> str:
-    """Return the HTML of a picture.
-
-    The picture is a figure of an example or of a study, drawn by the service. The caption of the picture ends with a
-    link to the case or to the study.
-    """
+    """Return the HTML of a picture."""
     token = tokens[place]
     folder, file = str(token.attrs["src"]).removesuffix(".png").split("/")[-2:]
     if folder == "studies":
@@ -318,11 +286,7 @@ def _image(
 def _link_open(
     renderer: RendererHTML, tokens: Sequence[Token], place: int, options: OptionsDict, environment: dict[str, Any]
 ) -> str:
-    """Return the HTML at the start of a link.
-
-    A link to the file of a chapter becomes a link to the page of the chapter. A link to a source file becomes a link to
-    the function that the text of the link names.
-    """
+    """Return the HTML at the start of a link."""
     token = tokens[place]
     address = str(token.attrs["href"])
     if _SOURCE.fullmatch(address):

@@ -27,10 +27,7 @@ def start_page(root: str) -> str:
 
 
 def _entry(calculations: list[Calculation]) -> dict[str, Any]:
-    """Return the entry of a model on the start page: a question, a figure, and the calculations of the model.
-
-    The question is the title of an example of the first calculation.
-    """
+    """Return the entry of a model on the start page: a question, a figure, and the calculations of the model."""
     first = calculations[0]
     of_first = examples_of(first)
     example = next((example for example in of_first if example.title.endswith("?")), of_first[0])
@@ -67,11 +64,7 @@ def unit_page(root: str, unit: dict[str, Any], name: str = "", sha256: str = "")
 
 
 def _titled(field: str, asked: Iterable[str]) -> str:
-    """Return the title of an endpoint or of a field of a request.
-
-    `field` is the path of an endpoint or the dotted path of a field. The title of a field is first looked up in the
-    requests of the endpoints `asked`, then in the requests of all other endpoints.
-    """
+    """Return the title of an endpoint or of a field of a request."""
     if field in BY_PATH:
         return BY_PATH[field].title
     models = [BY_PATH[path].request for path in dict.fromkeys([*asked, *BY_PATH])]

@@ -110,10 +110,7 @@ def written_of(model: type[Documented], pairs: Pairs) -> str:
 
 
 def _in_link(model: type[Documented], name: str, text: str, others: dict[str, str]) -> str:
-    """Convert a typed text into the text for a link; `others` holds the texts of all fields of the form.
-
-    The text was typed in a field of the case or in a control of a study.
-    """
+    """Convert a typed text into the text for a link; `others` holds the texts of all fields of the form."""
     if name == CASES:
         return table_in_link(text)
     if name.startswith(CORNER):
@@ -153,10 +150,7 @@ def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
 
 
 def _renumbered(path: str, pairs: Pairs) -> Pairs:
-    """Renumber the items of the list of sections at `path` from 0, without gaps.
-
-    An empty row of the form leaves a gap. The items after this row then get smaller numbers.
-    """
+    """Renumber the items of the list of sections at `path` from 0, without gaps."""
     items = [re.fullmatch(rf"{re.escape(path)}\.([0-9]{{1,9}})(|\..*)", name, re.DOTALL) for name, _ in pairs]
     indices = sorted({int(item[1]) for item in items if item})
     return [

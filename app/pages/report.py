@@ -104,11 +104,7 @@ def _with_origin(sections: list[ReportSection], origins: frozenset[str]) -> list
 
 
 def _left(sections: list[ReportSection]) -> list[tuple[str, list[tuple[Leaf, str, bool]]]]:
-    """Return, for every section, its title and the inputs that have their default value or no value.
-
-    Sections without such inputs are left out. Every input comes with a text and a boolean. If the boolean is True, the
-    text is the default value. If the boolean is False, the text says what is used instead of a value.
-    """
+    """Return, for every section, its title and the inputs that have their default value or no value."""
     left = []
     for title, _, rows in sections:
         inputs = [
@@ -171,10 +167,7 @@ def _given(case: SolvedCase) -> dict[str, Any]:
 
 
 def _inputs(case: SolvedCase, pairs: Pairs) -> list[ReportSection]:
-    """Return the inputs by section. Each input has the value that was used, and the origin of this value.
-
-    An input without a value has a text instead of the value, or is left out if there is no such text.
-    """
+    """Return the inputs by section. Each input has the value that was used, and the origin of this value."""
     typed = {_element.sub("", name) for name, _ in pairs}
     assumed = {assumption.field: assumption.value for assumption in case.response.assumptions}
     used = resolved(case.response) | assumed

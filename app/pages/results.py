@@ -91,10 +91,7 @@ def values_by_path(response: Documented | None) -> dict[str, Any]:
 
 
 def groups(response: Documented, before: Documented | None = None) -> dict[str, list[ResultRow]]:
-    """Return a table of scalars and short lists for each group of an answer. The keys are the titles of the groups.
-
-    `before` is the answer of the variant. If `before` is given, each row also has the value of the variant.
-    """
+    """Return a table of scalars and short lists for each group of an answer. The keys are the titles of the groups."""
     old, remarks = values_by_path(before), words_of(response).remarks(response)
     tables: dict[str, list[ResultRow]] = {}
     for group, leaf, path, value in entries(response):
@@ -107,10 +104,7 @@ def groups(response: Documented, before: Documented | None = None) -> dict[str, 
 
 
 def differences(request: type[Documented], response: Response, before: Response) -> list[ResultRow]:
-    """Return the inputs that differ between a case and its variant.
-
-    If an input is empty, the value that was used for this input is shown.
-    """
+    """Return the inputs that differ between a case and its variant."""
     here, there = flattened(response.inputs), flattened(before.inputs)
     now, old = resolved(response), resolved(before)
     return [
@@ -139,10 +133,7 @@ def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, dig
 
 
 def _named(leaf: Leaf, items: tuple[str, ...]) -> tuple[str, ...]:
-    """Put names before the items of a field, such as "x" before the first component of a vector.
-
-    If the field declares no names, return the items unchanged.
-    """
+    """Put names before the items of a field, such as "x" before the first component of a vector."""
     names = (leaf.declared.index or "").split(", ")
     return tuple(map(" ".join, zip(names, items, strict=True))) if len(names) == len(items) > 1 else items
 
@@ -153,10 +144,7 @@ def row_of(leaf: Leaf, path: str, value: Any = None, digits: int = DIGITS) -> Re
 
 
 def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
-    """Return the text of a value, the texts of the items of a list, or the texts of the rows of a matrix.
-
-    A single value has `digits` significant digits, and items have `of_items` significant digits.
-    """
+    """Return the text of a value, the texts of the items of a list, or the texts of the rows of a matrix."""
     if not isinstance(value, list):
         return (shown(value, digits),)
     if value and isinstance(value[0], list):
@@ -260,11 +248,7 @@ def _size(value: Any) -> float:
 
 
 def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[str, str]:
-    """Return the level and the words of the verdict on a headline number.
-
-    If a field of the answer judges the number, the words are taken from this field. Otherwise the words compare the
-    number with its limit. `values` holds inputs and results under their paths.
-    """
+    """Return the level and the words of the verdict on a headline number."""
     view, value = leaf.view, values.get(leaf.path)
     if value is None:
         reason = leaf.description.partition("null ")[2]  # the reason as the schema states it
@@ -289,10 +273,7 @@ def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[
 
 
 def _standing(value: float, limit: float, *, greatest_is_best: bool) -> tuple[str, str]:
-    """Compare a value with its limit: return the level (good, near or bad) and a text.
-
-    In the text, `{}` stands for the limit.
-    """
+    """Compare a value with its limit: return the level (good, near or bad) and a text."""
     if greatest_is_best:
         if value < limit:
             return "bad", "below the limit {}"

@@ -60,10 +60,7 @@ def by_model() -> dict[str, list[Calculation]]:
 
 @lru_cache(maxsize=4)
 def _environment(root: str) -> Environment:
-    """Return the environment of the templates.
-
-    The filter `url` puts the prefix of the proxy before an address of the service.
-    """
+    """Environment of the templates. The filter `url` puts the prefix of the proxy before an address of the service."""
 
     def url(address: str) -> str:
         return root + address if address.startswith("/") else address

@@ -62,11 +62,7 @@ def shown(value: object, digits: int = 5) -> str:
 
 
 def cited(text: str) -> str:
-    """Return the text of a source or a reason as pages print it.
-
-    The specification ISO/TS 6336-20 is added to the name of the report ISO/TR 13989-1, which it has replaced. A source
-    that we know only at second hand is called "secondary source".
-    """
+    """Return the text of a source or a reason as pages print it."""
     return text.replace(_SECOND_HAND, "secondary source").replace(REPORT, STANDARD)
 
 

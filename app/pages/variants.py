@@ -51,10 +51,7 @@ def queries_of(asked: Asked) -> list[str]:
 
 
 def with_this(asked: Asked) -> str:
-    """Return the text of the query field `also`, with the case added as a further variant.
-
-    The text is empty if there is no room for a further variant, or if the case is already a further variant.
-    """
+    """Return the text of the query field `also`, with the case added as a further variant."""
     queries = queries_of(asked)
     return SEPARATOR.join([*queries, asked.query]) if len(queries) < MOST and asked.query not in queries else ""
 

@@ -69,10 +69,7 @@ def form_page(asked: Asked) -> Shown:
 
 
 def _deciding(calculation: Calculation) -> frozenset[str]:
-    """Return the inputs without which a headline number has no value.
-
-    If another input may be given instead of such an input, the other input is also returned.
-    """
+    """Return the inputs without which a headline number has no value."""
     needed = (leaf_at(calculation.request, leaf.view.needs or "") for leaf in headlines(calculation.response))
     return frozenset(path for leaf in needed if leaf for path in (leaf.path, *excluded(leaf.path, leaf)))
 
@@ -99,12 +96,7 @@ def figure(asked: Asked, name: str, image_format: Format | Literal["json"]) -> S
 
 
 def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Shown:
-    """Return the report of a case, with a section about a study if there is one.
-
-    `study` holds the `title` of the study, the `link` to its page, and its result under the key `found`. Addresses on
-    the report begin with `host`. If `host` is empty, the link to the case is relative, and the printed command asks the
-    service on the reader's own machine. If the case cannot be computed, the page of the case is returned instead.
-    """
+    """Return the report of a case, with a section about a study if there is one."""
     try:
         case, variant, trouble = _both(asked)
     except REFUSED:
@@ -122,22 +114,14 @@ def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Show
 
 
 def _asked_back(pairs: Pairs, faults: list[FormFault]) -> list[FormFault]:
-    """Return the faults; if the text of a field has two readings, replace the faults of this field by a question.
-
-    The question asks the user which reading of the text is meant.
-    """
+    """Return the faults; if the text of a field has two readings, replace the faults of this field by a question."""
     asked = {name: question(text) for name, text in pairs if question(text)}
     named = ((next((name for name in asked if f"{fault.path}.".startswith(f"{name}.")), ""), fault) for fault in faults)
     return [*dict.fromkeys(FormFault(name, asked[name]) if name else fault for name, fault in named)]
 
 
 def _keep(asked: Asked, case: SolvedCase, variant: SolvedCase | None = None) -> dict[str, bytes]:
-    """Return the answers that the service shall store, under their keys.
-
-    The answer of the case, or of the variant, is returned if the service has not stored this answer yet; `key_of` makes
-    the key from the fields. If the case is too long for a link, both answers are also returned under keys made from
-    hashes.
-    """
+    """Return the answers that the service shall store, under their keys."""
     keep = {}
     for pairs, kept, answered in (asked.pairs, asked.kept, case), (asked.ref_pairs, asked.kept_ref, variant):
         if answered is not None and kept is None:
@@ -172,10 +156,7 @@ def _page(
 def _answered(
     asked: Asked, case: SolvedCase, variant: SolvedCase | None, trouble: str, *, compute: bool = False
 ) -> dict[str, Any]:
-    """Return the template's variables for the answer of a case and for the comparison of the case with the variant.
-
-    `trouble` says why the variant cannot be computed.
-    """
+    """Return the template's variables for the answer of a case and for the comparison of the case with the variant."""
     figures, missing = figures_of(case, variant, compute=compute)
     request, response, before = type(case.request), case.response, variant.response if variant else None
     derived = groups(response.derived) if response.derived else {}
@@ -198,11 +179,7 @@ def _answered(
 
 
 def _elsewhere(asked: Asked) -> list[tuple[str, str, list[str]]]:
-    """Return the other calculations whose pages show further figures of the case.
-
-    An item has three parts: the title of the other calculation, the address of its page with the data of the case, and
-    the titles of the figures.
-    """
+    """Return the other calculations whose pages show further figures of the case."""
     pages, declarations = [], asked.calculation.figures
     for path in dict.fromkeys(declaration.shown_at for declaration in declarations if declaration.shown_at):
         other = BY_PATH[path]

@@ -124,12 +124,7 @@ def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | N
 
 
 def with_answer(document: Document, stage: int, endpoint: str, answer: dict[str, Any]) -> File:
-    """Return the file with new attributes of the stage.
-
-    The new attributes state the results of the answer, its status, and the identifier of the case. If REXS, in the
-    version of the file, has an attribute for a result, the result is written to this attribute. All other attributes
-    have names that begin with `custom_tribodrive_`.
-    """
+    """Return the file with new attributes of the stage."""
     major, written = int(document.model.version.split(".")[0]), []
     for path, name, unit in BY_PATH[endpoint].words.to_file:
         value: Any = answer

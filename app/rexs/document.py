@@ -70,19 +70,13 @@ def read(content: bytes, most_bytes: int) -> Document:
 
 
 def with_attributes(file: File, component: int, attributes: Iterable[Attribute]) -> File:
-    """Return the file with additional attributes of a component.
-
-    A new attribute replaces an attribute of the same name.
-    """
+    """File with additional attributes of a component. A new attribute replaces an attribute of the same name."""
     write = _json_with if file.suffix == ".rexsj" else _xml_with
     return file._replace(content=write(file.content, component, attributes))
 
 
 def _unpacked(content: bytes, most_bytes: int) -> bytes:
-    """Unpack the model file in a zip archive, and return at most the first `most_bytes` + 1 bytes of the file.
-
-    The archive states the size of the unpacked file. This size may be wrong, so it is not used.
-    """
+    """Unpack the model file in a zip archive, and return at most the first `most_bytes` + 1 bytes of the file."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
             models = [entry for entry in archive.infolist() if _is_model(entry.filename)]
@@ -101,10 +95,7 @@ def _unpacked(content: bytes, most_bytes: int) -> bytes:
 
 
 def _is_model(name: str) -> bool:
-    """Return True if the name of a file in an archive is the name of a REXS file.
-
-    Hidden files, which some operating systems add to archives, do not count.
-    """
+    """Return True if the name of a file in an archive is the name of a REXS file."""
     path = PurePosixPath(name.replace("\\", "/"))
     hidden = "__MACOSX" in path.parts[:-1] or path.name.startswith(".")
     return not hidden and not name.endswith("/") and path.name.lower().endswith(SUFFIXES)

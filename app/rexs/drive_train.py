@@ -135,10 +135,7 @@ class _DriveTrain:
         self._stage.put(path, self._angle(self._in_file(unit, (u, v, w))), unit, "direction_vector_gravity_v")
 
     def _temperatures(self) -> None:
-        """Fill in the reference temperature and the tooth temperatures of both gears.
-
-        The dimensions in drawings are valid at the reference temperature.
-        """
+        """Fill in the reference temperature and the tooth temperatures of both gears."""
         stage = self._stage
         stage.take(table.REFERENCE_TEMPERATURE, self._reading.model.first("gear_unit"))
         for gear, row in zip(stage.gears, table.TOOTH_TEMPERATURES, strict=True):
@@ -181,11 +178,7 @@ class _DriveTrain:
         return True
 
     def _sections(self, shaft: Component) -> list[ShaftSection]:
-        """Return the sections of a shaft.
-
-        Each cone is replaced by short cylinders. The diameters of a cylinder are the diameters of the cone at the
-        middle of the cylinder.
-        """
+        """Return the sections of a shaft."""
         reading, stage = self._reading, self._stage
         base, sense = stage.position_of_coordinate(shaft, 0.0) or 0.0, stage.along(shaft)
         cylinders, stacked = [], 0.0
@@ -213,10 +206,7 @@ class _DriveTrain:
         return self._contiguous(sorted(cylinders), shaft)
 
     def _contiguous(self, sections: list[ShaftSection], shaft: Component) -> list[ShaftSection]:
-        """Move the ends of the sections so that there are no gaps and no overlaps.
-
-        Gaps and overlaps in the file are recorded as findings.
-        """
+        """Move the ends of the sections so that there are no gaps and no overlaps."""
         joined: list[ShaftSection] = []
         for section in sections:
             here = joined[-1].end if joined else section.begin

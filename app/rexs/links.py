@@ -169,11 +169,7 @@ def _bevel_sense(
 
 
 def _planetary(reading: Reading, stage: Component, groups: Groups) -> SpeedLink | None:
-    """Return the link of a simple planetary stage of which one member is held.
-
-    The members are sun (z_s), ring (z_r) and carrier. About the common axis, with the speeds n (Willis):
-    (n_s - n_c) z_s = -(n_r - n_c) z_r.
-    """
+    """Return the link of a simple planetary stage of which one member is held."""
     model = reading.model
     gears = {
         gear.id: gear

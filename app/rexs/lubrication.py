@@ -42,11 +42,7 @@ class Lubrication:
         self._base_oil(oil)
 
     def _base_oil(self, oil: Component) -> None:
-        """Fill in the kind of base oil.
-
-        The attributes for the type of lubricant take precedence over other texts about the oil. If there is no model
-        for the kind of oil in the file, add a finding that names this kind.
-        """
+        """Fill in the kind of base oil."""
         path, texts = "lubricant.kind", {}
         for name in (*table.OIL_TYPES, *table.OIL_WORDS):
             texts[name] = self._reading.text(oil, name)
@@ -78,12 +74,7 @@ class Lubrication:
         )
 
     def _temperatures(self) -> None:
-        """Fill in the oil temperature, the oil supply and the bulk temperature.
-
-        The bulk temperature is the mean of the bulk temperatures of both gears. If the file states the bulk temperature
-        of only one gear, this temperature is used. If the file states no bulk temperature of the gears, the bulk
-        temperature of the stage is used.
-        """
+        """Fill in the oil temperature, the oil supply and the bulk temperature."""
         for origin in self._stage.oil_origins:
             if self._stage.take(table.OIL_TEMPERATURE, origin) is not None:
                 break

@@ -106,18 +106,12 @@ class RexsUnit:
         return None if id_ is None else self.components.get(id_)
 
     def relations_of(self, type_: str, role: str, component: int) -> Sequence[Relation]:
-        """Return those relations of the type `type_` in which the component `component` has the role `role`.
-
-        Relations that state an order come first, and are sorted by this order.
-        """
+        """Return those relations of the type `type_` in which the component `component` has the role `role`."""
         relations = self._by_part.get((type_, role, component), ())
         return sorted(relations, key=lambda relation: (relation.order is None, relation.order or 0))
 
     def related(self, type_: str, role: str, component: int, other: str) -> Iterator[Component]:
-        """Yield the components with the role `other` in those relations in which `component` has the role `role`.
-
-        Only relations of the type `type_` count.
-        """
+        """Yield the components with the role `other` in those relations in which `component` has the role `role`."""
         partners = (self.part(relation, other) for relation in self.relations_of(type_, role, component))
         return (partner for partner in partners if partner is not None)
 
@@ -140,10 +134,7 @@ class RexsUnit:
         return next((reference for origin in given for reference in self.references_of(origin.id, type_)), None)
 
     def references_of(self, origin: int, *types: str) -> Iterator[Component]:
-        """Yield the components of the types `types` to which the component `origin` refers.
-
-        For example, a gear refers to its material and its tools.
-        """
+        """Yield the components of the types `types` to which the component `origin` refers."""
         for relation_type in ("reference", "ordered_reference"):
             for reference in self.related(relation_type, "origin", origin, "referenced"):
                 if reference.type in types:

@@ -46,13 +46,7 @@ class Modifications:
         return [item for item in modifications if item.type in table.MODIFICATIONS]
 
     def _working_side(self, place: int) -> str | None:
-        """Return which flank of a gear is loaded, "left" or "right"; return None if the loaded flank is not known.
-
-        If the file does not state the loaded flank, the function derives it from the sense of rotation. The gear is
-        seen from its datum face, that is, from the end at which the coordinate u along the shaft is least. Seen from
-        there, a gear with positive speed turns clockwise. With this sense of rotation, the right flank of a driving
-        gear and the left flank of a driven gear are loaded.
-        """
+        """Return which flank of a gear is loaded, "left" or "right"; return None if the loaded flank is not known."""
         stage = self._stage
         for data in stage.gear_data(place):
             if (side := self._reading.text(data, "loaded_tooth_flank")) in {"left", "right"}:
@@ -63,10 +57,7 @@ class Modifications:
         return "right" if (speed > 0.0) == (stage.order[place] == stage.driver) else "left"
 
     def _crowning(self, kind: str, field: str, ends: tuple[str, str]) -> None:
-        """Fill in the crowning, which is the sum of the crownings of both gears.
-
-        If the file states different amounts for the two ends of a gear, the mean of the two amounts is used.
-        """
+        """Fill in the crowning, which is the sum of the crownings of both gears."""
         means, origin = [], None
         for _, item in self._carried:
             values = [self._reading.number(item, kind + end, "um") for end in ends] if item.type == kind else []
@@ -82,11 +73,7 @@ class Modifications:
             self._stage.put(f"modifications.{field}", sum(means), origin, kind + ends[0])
 
     def _relief(self, name: str, kinds: tuple[str, str]) -> None:
-        """Fill in the relief at one end of the path of contact.
-
-        `kinds` names the kind of relief of the pinion and the kind of relief of the wheel that act at this end. The
-        amount is the sum of the amounts of both gears. Length and shape are those of the gear with the larger amount.
-        """
+        """Fill in the relief at one end of the path of contact."""
         reliefs = []
         for place, item in self._carried:
             kind = kinds[place]
@@ -120,10 +107,7 @@ class Modifications:
             self._stage.put(path, exponent, component, "shape_of_relief")
 
     def _relief_length(self, component: Component, kind: str, place: int) -> float | None:
-        """Return the length of a relief along the line of action [mm], or None if the length is not known.
-
-        If the file does not state the length, the length is computed from the diameter at which the relief starts.
-        """
+        """Return the length of a relief along the line of action [mm], or None if the length is not known."""
         length = self._reading.number(component, f"{kind}_datum_length", "mm")
         if length is not None:
             return length
@@ -147,11 +131,7 @@ class Modifications:
         return gear.roll_length(gear.reference_diameter + 2.0 * gear.module * (addendum + gear.shift))
 
     def _slopes(self) -> None:
-        """Fill in the profile slope and the helix slope.
-
-        In the file, a positive profile slope removes material at the tip, and a positive helix slope removes material
-        at the non-datum face. The datum face is the end of the gear at which the coordinate u along the shaft is least.
-        """
+        """Fill in the profile slope and the helix slope."""
         sums, origins = {"profile_slope": 0.0, "helix_slope": 0.0}, {}
         for place, item in self._carried:
             amount = self._reading.number(item, item.type, "um") if item.type in sums else None
@@ -190,11 +170,7 @@ class Modifications:
         return -(1.0 if speed > 0.0 else -1.0) * hand * stage.along(stage.shafts[place])
 
     def _end_relief(self) -> None:
-        """Fill in the end relief.
-
-        The file states an amount for each end of each gear. At each end of the face, the amounts of both gears are
-        added. The request has only one amount for both ends, which is the mean of the two sums.
-        """
+        """Fill in the end relief."""
         depths, lengths, origins = {"datum_face": 0.0, "non_datum_face": 0.0}, list[float](), list[Component]()
         for end in depths:
             for _, item in self._carried:

@@ -169,10 +169,7 @@ class _TrainState:
         return speeds
 
     def _spread(self, group: int, speed: float, speeds: dict[int, float]) -> None:
-        """Set the speed of a group, and the speeds of all groups that meshes connect to this group.
-
-        Speeds that are already set are not changed.
-        """
+        """Set the speed of a group, and the speeds of all groups that meshes connect to this group."""
         speeds[group] = speed
         for mesh, place in self._at[group]:
             other = self._ends[mesh.stage.id][1 - place]
@@ -181,11 +178,7 @@ class _TrainState:
                 self._spread(other, -speed * mesh.teeth[place] / mesh.teeth[1 - place], speeds)
 
     def _forces(self, speeds: dict[int, float], reading: Reading) -> dict[int, float]:
-        """Return, for each mesh or link, the torque on a gear divided by the gear's number of teeth [N m].
-
-        Both gears of a mesh have the same quotient. If the torques of a mesh do not follow from the file, the mesh is
-        left out.
-        """
+        """Return, for each mesh or link, the torque on a gear divided by the gear's number of teeth [N m]."""
         torques, opened = self._loads(speeds, reading)
         forces: dict[int, float] = {}
         waiting = list(self._at) if torques else []

@@ -110,10 +110,7 @@ class Reading:
     used_of_case: set[tuple[int, str]] = field(default_factory=set)
 
     def in_case(self, case: LoadCase | None) -> "Reading":
-        """Return a reader in which the values of a load case replace the values of the model.
-
-        Both readers share one record of findings.
-        """
+        """Return a reader in which the values of a load case replace the values of the model."""
         reading = copy(self)  # the copy keeps the cached directions of the shafts
         reading.case, reading.used_of_case = case, set()
         return reading
@@ -135,12 +132,7 @@ class Reading:
         self.findings[Fault(code=code, component=id_, attribute=attribute, message=message)] = None
 
     def number(self, component: Component | None, wanted: Row | str, unit: str = "") -> float | None:
-        """Return the number in an attribute of a component, or None if the file has no usable number.
-
-        `wanted` is the name of the attribute, or a row of the attribute table. A row may name several attributes: the
-        first attribute with a usable number counts. The number is converted to the unit of the row, or to `unit`. If a
-        value is not a number, or if its unit does not fit, the value is recorded as a finding.
-        """
+        """Return the number in an attribute of a component, or None if the file has no usable number."""
         names, unit = (wanted.attributes, wanted.unit) if isinstance(wanted, Row) else ((wanted,), unit)
         first = self.first_of(component, names, unit)
         return None if first is None else first.value
@@ -214,11 +206,7 @@ class Reading:
         return ShaftAxis(origin, (x / size, y / size, z / size))
 
     def sense(self, shaft: Component) -> float:
-        """Return the direction of a shaft's u axis: +1 along the axis of the unit, -1 against the axis of the unit.
-
-        The axis of the unit is the u axis of the first shaft whose position the file states, or the first such shaft in
-        about the same direction (behind a bevel stage). Return +1 for a shaft whose position is not stated.
-        """
+        """Return the direction of a shaft's u axis: +1 along the axis of the unit, -1 against the axis of the unit."""
         return self._senses.get(shaft.id, 1.0)
 
     @cached_property
@@ -241,10 +229,7 @@ class Reading:
                     yield Unused(component=component.id, attribute=name, reason=why_unused(component.type, name))
 
     def ignored_of_case(self, elsewhere: Collection[int]) -> Iterator[Unused]:
-        """Yield the attributes of the load case that have not been read.
-
-        Attributes of the components whose ids are in `elsewhere` are left out.
-        """
+        """Yield the attributes of the load case that have not been read."""
         if (case := self.case) is None:
             return
         for id_, attributes in case.attributes.items():
@@ -309,17 +294,11 @@ class Draft:
         self.note(path, value, reason)
 
     def note(self, path: str, value: Any, reason: str) -> None:
-        """Record a field, its value and the reason for this value among the assumed values.
-
-        The field itself is not changed.
-        """
+        """Record a field, its value and the reason for this value among the assumed values."""
         self.assumed[path] = AssumedValue(field=path, value=value, reason=reason)
 
     def lacks(self, path: str, component: Component | None, attribute: str | None, message: str) -> None:
-        """Record that a field has no value, although a calculation needs the value.
-
-        `component` and `attribute` say where the file could state the value.
-        """
+        """Record that a field has no value, although a calculation needs the value."""
         id_ = component.id if component else None
         self.missing.setdefault(path, MissingValue(field=path, component=id_, attribute=attribute, message=message))
 

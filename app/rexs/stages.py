@@ -83,11 +83,7 @@ class StageDraft(Draft):
     """
 
     def __init__(self, pair: Pair, flow: PowerFlow, pinion: int | None = None) -> None:
-        """Choose the pinion.
-
-        If another draft of the same stage has already chosen the pinion, `pinion` is the position of the pinion in
-        `pair`.
-        """
+        """Choose the pinion."""
         super().__init__(flow.reading)
         self.flow, self.pair = flow, pair
         self.driver = self._driver()
@@ -133,11 +129,7 @@ class StageDraft(Draft):
             self.note(path, ra, f"Ra = Rz/6, because the file states only Rz, {rz:.4g} µm")
 
     def _driver(self) -> int | None:
-        """Return the position of the driving gear in `pair`, or None if the driving gear is not known.
-
-        The driving gear follows from torque and speed. If torque and speed are not known, and the file marks exactly
-        one gear as driving, this gear is the driving gear.
-        """
+        """Return the position of the driving gear in `pair`, or None if the driving gear is not known."""
         by_power, pair = self.flow.driver(self.pair), self.pair
         stated = [place for place in (0, 1) for data in _gear_data(self.reading, pair, pair.gears[place])
                   if self.reading.flag(data, "is_driving_gear")]  # fmt: skip
@@ -185,10 +177,7 @@ class StageDraft(Draft):
         return self.reading.model.reference_of(self.oil_origins, "lubricant")
 
     def load(self, flow: PowerFlow) -> dict[str, float]:
-        """Return the torque and the speed of the pinion. The keys are the paths of the fields in the draft.
-
-        Unknown values are left out.
-        """
+        """Return the torque and the speed of the pinion. The keys are the paths of the fields in the draft."""
         torques, speed = flow.mesh_torque.get(self.stage.id), flow.speed.get(self.shafts[0].id)
         fields = {} if torques is None else {TORQUE: abs(torques[self.order[0]])}
         return fields if speed is None else fields | {SPEED: abs(speed)}
@@ -297,13 +286,7 @@ class StageDraft(Draft):
         self.put("gears.hand", "right" if pinion >= 0.0 else "left", gear, row.name)
 
     def _helix_angle(self, gear: Component) -> float | None:
-        """Return the helix angle at the reference circle [deg]; None if the file does not state a helix angle.
-
-        If the file states only the helix angle beta_b at the base circle, the helix angle beta at the reference circle
-        is computed from beta_b and a pressure angle. With the normal pressure angle alpha_n, the equation is
-        sin beta = sin beta_b / cos alpha_n. If the file states only the transverse pressure angle alpha_t and not
-        alpha_n, the equation is tan beta = tan beta_b / cos alpha_t.
-        """
+        """Return the helix angle at the reference circle [deg]; None if the file does not state a helix angle."""
         stated = self.reading.number(gear, table.HELIX_ANGLE)
         base = self.reading.number(gear, table.BASE_HELIX_ANGLE) if stated is None else None
         if base is None:
@@ -362,11 +345,7 @@ class StageDraft(Draft):
         self.put(row.field, normal, angles[0][1], table.TRANSVERSE_PRESSURE_ANGLE.name)
 
     def _profile_shift(self, place: int) -> None:
-        """Fill in the nominal profile shift.
-
-        If the file does not state the nominal profile shift, the profile shift after finishing is used. This profile
-        shift includes the allowance of the tooth thickness.
-        """
+        """Fill in the nominal profile shift."""
         path = f"gears.{ROLES[place]}.profile_shift"
         if self._of_flanks(place, table.PROFILE_SHIFT, path) is not None:
             return
@@ -399,11 +378,7 @@ class StageDraft(Draft):
         return values[0][0]
 
     def _rack(self, place: int) -> None:
-        """Fill in the coefficients of addendum and dedendum.
-
-        The addendum comes from the tip diameter, or else from the basic profile. The dedendum comes from the tool, or
-        else from the root diameter. A coefficient that the file does not determine is assumed by profile A of ISO 53.
-        """
+        """Fill in the coefficients of addendum and dedendum."""
         prefix, tool = f"gears.{ROLES[place]}.", self.tool(place)
         path, module = f"{prefix}addendum", self.fields.get(table.MODULE.field)
         if not self._from_diameter(place, table.TIP_DIAMETER):
@@ -427,11 +402,7 @@ class StageDraft(Draft):
         self.assume(path, ISO_53_A[name], f"the file gives no {name}; the value of ISO 53, profile A, is used")
 
     def _of_tool(self, tool: Component | None, row: table.Row, length_row: table.Row) -> float | None:
-        """Return a coefficient of the tool in modules, or None if the file does not determine the coefficient.
-
-        The file states either the coefficient (`row`), or a length in mm (`length_row`), which is divided by the
-        module.
-        """
+        """Return a coefficient of the tool in modules, or None if the file does not determine the coefficient."""
         coefficient, length = self.reading.number(tool, row), self.reading.number(tool, length_row)
         module = self.fields.get(table.MODULE.field)
         return length / module if coefficient is None and length is not None and module else coefficient
@@ -483,11 +454,7 @@ class StageDraft(Draft):
             )
 
     def _backlash(self) -> None:
-        """Fill in the part of the normal backlash that results from the thinning of the teeth.
-
-        This part is the backlash in the file minus the backlash that results from the centre distance. If the file
-        states no backlash, this part is computed from the profile shifts before and after finishing.
-        """
+        """Fill in the part of the normal backlash that results from the thinning of the teeth."""
         path, name = "gears.normal_backlash_mm", table.BACKLASH[0]
         limits = self._stated_backlash()
         if not limits:
@@ -509,10 +476,7 @@ class StageDraft(Draft):
             self.note(path, stated - own, "mean of the least and the largest backlash")
 
     def _stated_backlash(self) -> list[float]:
-        """Return the least and the largest normal backlash in the file [mm]; empty if the file states no backlash.
-
-        If the file states only the transverse backlash j_t, the normal backlash is j_bn = j_t cos alpha_wt cos beta_b.
-        """
+        """Return the least and the largest normal backlash in the file [mm]; empty if the file states no backlash."""
         normal, transverse = (
             [value for name in names if (value := self.reading.number(self.stage, name, "mm")) is not None]
             for names in (table.BACKLASH, table.TRANSVERSE_BACKLASH)
@@ -524,10 +488,7 @@ class StageDraft(Draft):
         return [value * factor for value in transverse]
 
     def _thinning(self) -> float | None:
-        """Return the normal backlash that results from the finishing of both gears [mm].
-
-        This backlash is 2 m_n sin alpha_n times the sum of the profile shifts that finishing removes.
-        """
+        """Return the normal backlash that results from the finishing of both gears [mm]."""
         pinion, total = self.involute(0), 0.0
         for place, role in enumerate(ROLES):
             finished = self.values_of(self.flanks(place).values(), table.FINISHED_SHIFT)
@@ -559,11 +520,7 @@ class StageDraft(Draft):
         return involute(pinion.transverse_angle) + shifts / sum(self.teeth)
 
     def _backlash_of_centre_distance(self) -> float | None:
-        """Return the normal backlash [mm] that teeth without thinning have at the centre distance.
-
-        This backlash is 2 a cos alpha_wt (inv alpha_wt - inv alpha_0) cos beta_b, where alpha_0 is the working pressure
-        angle at which the teeth mesh without backlash.
-        """
+        """Return the normal backlash [mm] that teeth without thinning have at the centre distance."""
         pinion, wheel = self.involute(0), self.involute(1)
         distance = self.fields.get("gears.centre_distance_mm")
         if pinion is None or wheel is None:
@@ -592,11 +549,7 @@ class StageDraft(Draft):
             self.reading.find("centre_distance", self.stage, "center_distance", message)
 
     def _load(self) -> None:
-        """Fill in the torque and the speed of the pinion.
-
-        Torque and speed follow from the loads on the shafts. If the loads do not determine torque and speed, the values
-        that the file states for the gear are used.
-        """
+        """Fill in the torque and the speed of the pinion."""
         load = self.load(self.flow)
         own = (table.GEAR_TORQUE, self.gear_data(0)), (table.GEAR_SPEED, (self.gears[0],))
         for (row, origins), what in zip(own, ("torque", "speed"), strict=True):
@@ -633,11 +586,7 @@ class Involute:
         self.base_diameter = self.reference_diameter * cos(self.transverse_angle)
 
     def roll_length(self, diameter: float) -> float:
-        """Return the roll length [mm] at a diameter [mm].
-
-        The roll length is the distance from the base tangent point along the line of action. Inside the base circle,
-        the roll length is 0.
-        """
+        """Return the roll length [mm] at a diameter [mm]."""
         return sqrt(max(diameter**2 - self.base_diameter**2, 0.0)) / 2.0
 
     def tip_fault(self, diameter: float) -> str | None:

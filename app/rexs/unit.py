@@ -64,11 +64,7 @@ def gear_unit(model: RexsUnit) -> dict[str, Any]:
 
 
 def _stages(reading: Reading, all_pairs: list[Pair], base: PowerFlow, flows: list[PowerFlow]) -> list[dict[str, Any]]:
-    """Return the stages in the answer.
-
-    For each stage, the answer lists the attributes of the file that were not used. Some unused attributes belong to a
-    load case, and describe components that are part of no stage. These attributes are listed at every stage.
-    """
+    """Return the stages in the answer."""
     rows, parts, all_parts = [], [], set[int]()
     for pair in all_pairs:
         row, stage = _stage(pair, base, flows)
@@ -89,11 +85,7 @@ def _stages(reading: Reading, all_pairs: list[Pair], base: PowerFlow, flows: lis
 
 
 def _stage(pair: Pair, base: PowerFlow, flows: list[PowerFlow]) -> tuple[dict[str, Any], StageDraft]:
-    """Return the part of the answer that describes a stage, and the draft from which this part is made.
-
-    The requests for the stage need a load. If the file states a load outside the load cases, this load is used.
-    Otherwise, the load of the first load case that states a load is used.
-    """
+    """Return the part of the answer that describes a stage, and the draft from which this part is made."""
     flow = next((flow for flow in (base, *flows) if flow.knows(pair)), base)
     stage = _draft_of(pair, flow)
     if (case := flow.reading.case) is not None:
@@ -139,10 +131,7 @@ def _draft_of(pair: Pair, flow: PowerFlow, pinion: int | None = None) -> StageDr
 
 
 def _described_by(stage: StageDraft) -> Iterator[Component]:
-    """Yield the components that describe a stage.
-
-    If an attribute of one of these components is not used, the answer lists this attribute.
-    """
+    """Yield the components that describe a stage."""
     model = stage.reading.model
     yield stage.stage
     for place, shaft in enumerate(stage.shafts):
@@ -167,17 +156,11 @@ class _StageCase(NamedTuple):
 
     @property
     def of_scuffing(self) -> dict[str, Any]:
-        """The load case as the answer of /v1/rexs states it.
-
-        The keys of `overrides` are the paths of the changed fields in a request of /v1/scuffing.
-        """
+        """The load case as the answer of /v1/rexs states it."""
         return {"name": self.name, "share": self.share, "overrides": self._in(SCUFFING)}
 
     def as_spectrum(self, endpoint: str) -> dict[str, Any]:
-        """Return the load case as a request of /v1/spectrum states it for the calculation `endpoint`.
-
-        Changed fields that a request of `endpoint` does not have are left out.
-        """
+        """Return the load case as a request of /v1/spectrum states it for the calculation `endpoint`."""
         return {"name": self.name[:LONGEST_NAME], "share": self.share, "set": self._in(endpoint)}
 
     def _in(self, endpoint: str) -> dict[str, Any]:
@@ -219,10 +202,7 @@ def _cases(stage: StageDraft, pair: Pair, flows: list[PowerFlow], *, is_train: b
 
 
 def _differences(path: str, value: Any, base: Any) -> Iterator[tuple[str, Any]]:
-    """Yield the paths below `path` at which a value of a load case differs from the model's, and their values.
-
-    An override cannot change the number of items of a list.
-    """
+    """Yield the paths below `path` at which a value of a load case differs from the model's, and their values."""
     if isinstance(value, list) and isinstance(base, list):
         for index, (own, other) in enumerate(zip(value, base, strict=False)):
             yield from _differences(f"{path}.{index}", own, other) if own != other else ()

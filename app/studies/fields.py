@@ -65,10 +65,7 @@ def did_you_mean(path: str, known: Iterable[str]) -> str:
 
 
 def fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
-    """Return the code and the message of the error if a field rejects a value.
-
-    Return None if the field accepts the value.
-    """
+    """Code and the message of the error if a field rejects a value. Return None if the field accepts the value."""
     code = "out_of_range"
     if value is None:
         wrong, message = not leaf.nullable, "null is not accepted here"

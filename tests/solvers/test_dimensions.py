@@ -94,10 +94,7 @@ def test_load_distribution(random: Generator) -> None:
 
 
 def unit_in_other_units(inputs: DriveTrainInputs, units: Units) -> DriveTrainInputs:
-    """Return a gear unit in other units.
-
-    The gravity factor is declared without a unit, but is scaled as an acceleration.
-    """
+    """Gear unit in other units. The gravity factor is declared without a unit, but is scaled as an acceleration."""
     converted = in_other_units(inputs, units)
     gravity = inputs.arrangement.gravity_factor * units.length / units.time**2
     return changed(converted, {"arrangement.gravity_factor": gravity})

@@ -264,10 +264,7 @@ def scuffing() -> dict[str, Any]:
 
 
 def few_draws(example: str) -> dict[str, Any]:
-    """Return an example of a spectrum, reduced to 2 replicates of 2 draws.
-
-    Two replicates still give a standard error.
-    """
+    """Example of a spectrum, reduced to 2 replicates of 2 draws. Two replicates still give a standard error."""
     draws = {"tolerances.count": 2, "tolerances.replicates": 2}
     return changed(study_bodies("/v1/spectrum")[example]["value"], draws)
 

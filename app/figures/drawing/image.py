@@ -110,19 +110,12 @@ def _width(figure: Figure) -> float:
 
 
 def _letters(figure: Figure, length: int) -> int:
-    """Return the number of characters that fit into a line of text in this figure.
-
-    `length` is the number of characters that fit into a line in a figure of the usual width.
-    """
+    """Return the number of characters that fit into a line of text in this figure."""
     return int(length * _width(figure) / WIDTH)
 
 
 def _head(figure: Figure) -> tuple[str, str, float, float]:
-    """Return the title and the finding of a figure, both broken into lines, and two distances [in].
-
-    The first distance is from the top of the image to the finding. The second distance is from the top of the image to
-    the space for the panels.
-    """
+    """Return the title and the finding of a figure, both broken into lines, and two distances [in]."""
     title, finding = fill(figure.title, _letters(figure, TITLE_LENGTH)), fill(figure.subtitle, _letters(figure, LENGTH))
     below = EDGE + LINE * TITLE * (1 + title.count("\n"))
     return title, finding, below, below + LINE * TEXT * (1 + finding.count("\n")) + EDGE
@@ -155,10 +148,7 @@ def _shares_abscissa(figure: Figure) -> bool:
 
 
 def _abscissa(figure: Figure) -> float:
-    """Return the height [in] of the texts below axes: the tick labels, and the name of the abscissa.
-
-    In a narrow figure the name may have two lines.
-    """
+    """Return the height [in] of the texts below axes: the tick labels, and the name of the abscissa."""
     return ABSCISSA + LINE * TEXT * figure.narrow
 
 
@@ -186,10 +176,7 @@ def laid_out(figure: Figure) -> tuple[Sheet, list[Axes]]:
 
 
 def _collides(sheet: Sheet, axes: list[Axes]) -> bool:
-    """Return True if a text on the sheet is cut off or overlaps another text.
-
-    `sheet` and `axes` are the values that `laid_out` returns.
-    """
+    """Return True if a text on the sheet is cut off or overlaps another text."""
     sheet.draw_without_rendering()  # places the names of axes and the legends
     texts = list[Text]()
     for panel_axes in axes:
@@ -261,11 +248,7 @@ def _thin_ticks(axes: Axes) -> None:
 
 
 def _overhang(axes: Axes) -> float:
-    """Return the length [in] by which texts extend beyond the right end of axes.
-
-    Two kinds of text can extend beyond this end: the texts beside rows, and the last tick label. At most half of the
-    tick label lies beyond the end.
-    """
+    """Return the length [in] by which texts extend beyond the right end of axes."""
     rows = dict[float, float]()
     for text in (text for text in axes.texts if text.get_gid() is None):
         place = round(text.get_window_extent().y0)

@@ -59,11 +59,7 @@ OUTLINE: Style = {"path_effects": [withStroke(linewidth=3.2, foreground="#12171f
 
 
 def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -> None:
-    """Draw a panel. The names of its axes have at most `length` characters per line.
-
-    The name of the ordinate is a horizontal text above the axes. The legend of a `narrow` panel stands above the axes
-    too. `place_texts` later draws the texts of areas and moves the texts of points.
-    """
+    """Draw a panel. The names of its axes have at most `length` characters per line."""
     name = "" if panel.rows else fill(panel.y.label, length)
     axes.set(xscale="log" if panel.x.log else "linear", yscale="log" if panel.y.log else "linear")
     axes.set_title(panel.title or "", pad=4.0 + 1.3 * TEXT * len(name.splitlines()))
@@ -202,10 +198,7 @@ def _bar_style(role: Role, color: str) -> Style:
 
 
 def _draw_bars(axes: Axes, bars: Line, beside: list[Line]) -> None:
-    """Draw the bars of the series `bars`.
-
-    `beside` holds all series of bars in the panel, including `bars`. At each abscissa, their bars stand side by side.
-    """
+    """Draw the bars of the series `bars`."""
     pitch = float(np.diff(bars.x).min()) if len(bars.x) > 1 else 1.0
     width = BAR_SHARE * pitch / len(beside)
     left = bars.x - BAR_SHARE * pitch / 2 + beside.index(bars) * width
@@ -247,10 +240,7 @@ def _draw_dots(axes: Axes, place: int, row: Row) -> None:
 
 
 def _draw_row(axes: Axes, place: int, row: Row) -> None:
-    """Draw a row as one bar. If the row has parts, draw one bar per part, end to end.
-
-    If the value of the row has bounds, also draw a line from the lower to the upper bound.
-    """
+    """Draw a row as one bar. If the row has parts, draw one bar per part, end to end."""
     left = 0.0
     for part in row.parts or [replace(row, name="", value=float(np.nan_to_num(row.value)))]:
         label = fill(part.name, NAME_LENGTH)
@@ -263,10 +253,7 @@ def _draw_row(axes: Axes, place: int, row: Row) -> None:
 
 
 def _write_value(axes: Axes, place: int, row: Row, panel: Panel) -> None:
-    """Write the value of a row to the right of its bar. A rounding error is written as zero.
-
-    The bounds of the value are written too if the upper bound is far from the lower bound.
-    """
+    """Write the value of a row to the right of its bar. A rounding error is written as zero."""
     scale = max((abs(other.value) for other in panel.rows if np.isfinite(other.value)), default=0.0)
     value, unit = without_rounding(row.value, scale), panel.x.unit
     text = number(value, unit) if np.isfinite(value) else "not calculated"
@@ -279,19 +266,13 @@ def _write_value(axes: Axes, place: int, row: Row, panel: Panel) -> None:
 
 
 def _write(axes: Axes, text: str, xy: tuple[float, float], offset: float, **style: Any) -> Text:
-    """Write a text at the height of the point `xy`.
-
-    The text stands `offset` typographic points to the right of the point, or to the left if `offset` is negative.
-    """
+    """Write a text at the height of the point `xy`."""
     style |= {"textcoords": "offset points", "va": "center_baseline", "ha": "left" if offset > 0.0 else "right"}
     return axes.annotate(text, xy, (offset, 0), bbox=patch(), **style)
 
 
 def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
-    """Draw a map in colours, with a colour bar and contours.
-
-    Thin contours are drawn at the ticks of the colour bar, dashed contours at the critical values.
-    """
+    """Draw a map in colours, with a colour bar and contours."""
     low, high = chart.ends
     norm = LogNorm(low, high) if chart.scale is Scale.RATIO else Normalize(low, high)
     still = {Scale.RATIO: 1.0, Scale.SIGNED: 0.0}.get(chart.scale)  # a contour at this value would show only noise
@@ -330,21 +311,14 @@ def _draw_map(axes: Axes, panel: Panel, chart: Map) -> None:
 
 
 def _edges(along: Values, log: bool) -> Values:
-    """Return the edges of the cells around points.
-
-    Inner edges lie midway between neighbouring points, on the scale of the axis. Outer edges lie at the end points.
-    """
+    """Return the edges of the cells around points."""
     scaled = np.log(along) if log else along
     edges = np.concatenate([scaled[:1], (scaled[1:] + scaled[:-1]) / 2, scaled[-1:]])
     return np.exp(edges) if log else edges
 
 
 def _draw_levels(axes: Axes, panel: Panel) -> None:
-    """Draw limits as dashed red lines, references as dotted grey lines, and zero as a grey line.
-
-    The line at zero is drawn if the ordinate is a magnitude, or if the values have both signs. If a limit or a
-    reference lies outside the axes, an arrow after its name points towards it.
-    """
+    """Draw limits as dashed red lines, references as dotted grey lines, and zero as a grey line."""
     if panel.map is None and not panel.rows and not panel.y.log and panel.y.limits is None:
         low, high = axes.dataLim.intervaly
         if panel.y.magnitude or low < 0.0 < high:
@@ -376,10 +350,7 @@ def _level_style(limit: bool) -> Style:
 
 
 def _name(axes: Axes, text: str, xy: tuple[float, float], xycoords: Any = "data", **style: Any) -> None:
-    """Write a text on a patch in the background colour, at the point that the text names.
-
-    `place_texts` later moves the text beside the point.
-    """
+    """Write a text on a patch in the background colour, at the point that the text names."""
     style = {"textcoords": "offset points", "in_layout": False, "zorder": 6, "annotation_clip": False, **style}
     if text:
         axes.annotate(text, xy, (0, 0), xycoords, bbox=patch(), **style)
@@ -406,10 +377,7 @@ def _keep_clear(axes: Axes, text: Text, room: Bbox, points: list[Bbox], rings: l
 
 
 def place_texts(axes: Axes, panel: Panel) -> None:
-    """Write the texts of areas, and move the texts of points to places clear of other texts.
-
-    The text of an area loses its last lines if they do not fit into the area.
-    """
+    """Write the texts of areas, and move the texts of points to places clear of other texts."""
     points = (axes.transData.transform((mark.x, mark.y)) for mark in panel.marks)
     rings = [Bbox([point - RING, point + RING]) for point in points]
     point = axes.figure.dpi / 72.0
@@ -469,11 +437,7 @@ def _point_of(text: Text) -> Values:
 
 
 def _lead(axes: Axes, text: Annotation, size: BboxBase, place: tuple[float, float], point: float) -> list[Path]:
-    """Draw a thin line from a point to its text if the text is far from the point. Return the lines that are drawn.
-
-    `place` is the position of the text in pixels, relative to the point. `point` is the typographic unit of 1/72
-    inch, in pixels.
-    """
+    """Draw a thin line from a point to its text if the text is far from the point. Return the lines that are drawn."""
     half = size.width / 2, size.height / 2
     x, y = (copysign(max(abs(off) - reach, 0.0), off) / point for off, reach in zip(place, half, strict=True))
     if hypot(x, y) <= FAR:
@@ -485,11 +449,7 @@ def _lead(axes: Axes, text: Annotation, size: BboxBase, place: tuple[float, floa
 
 
 def _hidden(curve: Path, box: Bbox, near: Bbox) -> float:
-    """Return the penalty for the position of a text that hides a curve or stands close to a curve.
-
-    `box` is the box of the text, and `near` is this box with a margin. The penalty grows with the width of the part of
-    the curve that lies in `near`.
-    """
+    """Return the penalty for the position of a text that hides a curve or stands close to a curve."""
     x, y = np.asarray(curve.vertices).T
     inside = x[(x > near.x0) & (x < near.x1) & (y > near.y0) & (y < near.y1)]
     length = float(np.ptp(inside)) if inside.size else 0.0
@@ -497,12 +457,7 @@ def _hidden(curve: Path, box: Bbox, near: Bbox) -> float:
 
 
 def _places(kind: str, size: BboxBase, room: BboxBase, point: float) -> Iterator[tuple[tuple[float, float], float]]:
-    """Yield positions to try for a text, each position with a penalty.
-
-    A text names a point, a horizontal line (`row`) or a vertical line (`column`). Positions are in pixels, relative to
-    this point or to the end of this line. The penalty grows with the distance. `point` is the typographic unit of
-    1/72 inch, in pixels.
-    """
+    """Yield positions to try for a text, each position with a penalty."""
     gap = (ROW_REACH if kind == "row" else LEAST_REACH) * point
     if kind == "row":
         free = max(room.width - size.width - 2 * gap, 0.0)

@@ -22,11 +22,7 @@ RISING = "1.2"  # the paper prints one value for this area, to which the law of 
 
 
 def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
-    """Draw the coupling as a point in the map of friction conditions.
-
-    The abscissa is the oil supply, and the ordinate is the strength of the film. The map shows the nine areas of
-    friction and the distance from the point to the nearest other area.
-    """
+    """Draw the coupling as a point in the map of friction conditions."""
     lubrication = result.lubrication
     regime, point = lubrication.regime, (lubrication.contact_overlap, lubrication.load_capacity_coefficient)
     overlap, capacity = (inf if value is None else value for value in point)  # None is drawn at the edge of the map
@@ -49,11 +45,7 @@ def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def _around(which: str, value: float) -> tuple[float, float]:
-    """Return the ends of the axis `which` of the map.
-
-    If the coupling has a `value` outside the usual ends of the axis, the ends are moved outwards. If `value` is
-    infinite or zero, the usual ends are returned.
-    """
+    """Return the ends of the axis `which` of the map."""
     low, high = MAP_ENDS[which]
     if not 0.0 < value < inf:
         return low, high
@@ -156,11 +148,7 @@ def orders(_: CouplingInputs, result: OrbitResult) -> Figure:
 
 
 def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figure:
-    """Draw curves over the crowning ratio: the least load capacity and the largest contact overlap at each ratio.
-
-    Least and largest are meant within the range of misalignment. The feasible range of the crowning ratio
-    is shaded, and the recommended ratio is marked.
-    """
+    """Draw curves over the crowning ratio: the least load capacity and the largest contact overlap at each ratio."""
     scan, best = result.scan, result.crowning_ratio
     ratio, capacity = scan.crowning_ratio, scan.min_load_capacity_coefficient
     if not ratio.size:
@@ -205,10 +193,7 @@ RECOMMENDATION_FIGURES = (
 
 
 def tooth_loads(inputs: CouplingInputs, result: CouplingResult) -> Figure:
-    """Draw the tangential force of each tooth, with the mean force and the largest force.
-
-    If pitch deviations are given, they are drawn below the forces.
-    """
+    """Draw the tangential force of each tooth, with the mean force and the largest force."""
     load, deviations = result.load_distribution, inputs.coupling.pitch_errors
     curves, mean = load.curves, load.mean_tangential_force
     bars = Line("tangential force", curves.angle, curves.tangential_force)
@@ -266,11 +251,7 @@ def contact_track(_: CouplingInputs, result: CouplingResult) -> Figure:
 
 
 def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
-    """Draw the axial thrust, and the sliding velocity along the teeth.
-
-    A line shows the coaxial limit, which is the thrust if the shafts are coaxial and all teeth slide in the same
-    direction. If the coupling has an axial velocity, a line shows this velocity beside the sliding velocity.
-    """
+    """Draw the axial thrust, and the sliding velocity along the teeth."""
     thrust, curves, axial = result.axial_thrust, result.kinematics.curves, inputs.operation.axial_velocity
     rows = [
         Row("thrust", thrust.force, Hue.BLUE, (thrust.lower_bound, thrust.upper_bound)),

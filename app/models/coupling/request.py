@@ -105,10 +105,6 @@ class CouplingFriction(Section, of=si.Friction):
     """Friction between the teeth."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark the friction curve as unused if a coefficient or a table is given.
-
-        If a coefficient is given, mark the coefficient at rest as unused too.
-        """
         given = self.coefficient is not None
         return {"static_coefficient": given, "mixed_curve": given or self.mixed_law is not None}
 
@@ -129,12 +125,6 @@ class _CouplingRequest(Request):
     ] = CouplingModel()
 
     def unused(self) -> dict[str, bool]:
-        """Mark inputs as unused if other inputs make them ineffective.
-
-        If the inlet length is given, the choice of what limits the oil inlet is ineffective. In the arrangement
-        `single`, the distance between the hubs is ineffective, unless a parallel offset is given. In arrangements other
-        than `parallel_offset`, the factor of the simple thrust model is ineffective.
-        """
         arrangement, offset = self.operation.arrangement, getattr(self.operation, "parallel_offset_mm", None)
         return {
             "model.inlet": self.model.inlet_length_mm is not None,
@@ -168,11 +158,6 @@ class SleeveOrbitRequest(CouplingRequest):
         return {"kinematics": self.model.kinematics, "sleeve": "floating"}
 
     def unused(self) -> dict[str, bool]:
-        """Mark the inputs that do not affect the orbit of the sleeve as unused.
-
-        These inputs describe the oil, the friction, the model, the contact and the second mesh. Young's modulus is
-        also unused if the tooth stiffness is given.
-        """
         contact = ("face_width_mm", "tooth_height_mm", "poisson_ratio", "hub_distance_mm")
         unused = dict.fromkeys(("lubricant", "friction", "model", *(f"coupling.{name}" for name in contact)), True)
         return unused | {"coupling.youngs_modulus_gpa": self.coupling.tooth_stiffness_n_per_um is not None}
@@ -185,11 +170,6 @@ class RecommendationRequest(_CouplingRequest):
     operation: Annotated[CouplingOperationRange, Input("operating point", text="with a range of misalignment")]
 
     def unused(self) -> dict[str, bool]:
-        """Mark two inputs as unused in addition to the inputs that the base class marks.
-
-        The two inputs are the factor of the simple thrust model and the coefficient of friction at rest. Only the
-        calculation of a coupling at one operating point uses these two inputs.
-        """
         return super().unused() | {"model.simple_thrust_factor": True, "friction.static_coefficient": True}
 
     def inputs(self) -> si.RecommendationInputs:

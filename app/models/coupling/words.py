@@ -90,11 +90,7 @@ def verdicts(response: Any) -> dict[str, Verdict]:
 
 
 def _thrust(response: Any) -> Verdict:
-    """Compare the thrust in motion with the coaxial limit, and the design thrust with the customary thrust.
-
-    The coaxial limit is the thrust if the shafts are coaxial and all teeth slide in the same direction. The customary
-    thrust is 0.25 T/D, where T is the torque and D is the shaft diameter.
-    """
+    """Compare the thrust in motion with the coaxial limit, and the design thrust with the customary thrust."""
     thrust = response.axial_thrust
     share, customary, held = thrust.fraction_of_limit, thrust.customary_force_n, thrust.design_force_n
     limit = number(thrust.coaxial_limit_n, "N")

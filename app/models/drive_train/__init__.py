@@ -10,10 +10,7 @@ from solvers import drive_train
 
 
 def _unit_states(request: Any) -> Cost:
-    """Estimate the time to solve the contacts of a gear unit in all requested states.
-
-    In each state (hot or cold) the contacts are solved along the feature line and at a few places of the flank.
-    """
+    """Estimate the time to solve the contacts of a gear unit in all requested states."""
     path = thermal_path(request)
     return Cost(len({*request.states}) * path.seconds, path.field)
 

@@ -188,10 +188,7 @@ def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[s
 
 
 def journals(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
-    """Draw the position of each journal in its clearance.
-
-    Also draw the path that the journal takes as the load changes.
-    """
+    """Draw the position of each journal in its clearance."""
     wall = Line("clearance", np.cos(ROUND), np.sin(ROUND), Hue.GREY, named=False)
     across, up = (
         Axis(f"displacement over clearance, along {way}", magnitude=False, limits=WALLS, symbol=symbol)
@@ -224,10 +221,7 @@ def journals(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def _locus(x: float, y: float, reaction: Vector2, law: FilmLaw) -> tuple[Values, Values]:
-    """Return the path of a journal whose load grows from zero to the full load without changing its direction.
-
-    The path begins in the middle of the clearance and ends at (x, y). All displacements are divided by the clearance.
-    """
+    """Return the path of a journal whose load grows from zero to the full load without changing its direction."""
     load = atan2(-reaction[1], -reaction[0])
     side = copysign(1.0, sin(atan2(y, x) - load))
     eccentricity = np.linspace(0.0, hypot(x, y), 60)
@@ -284,10 +278,7 @@ def losses(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
 
 
 def as_warm(inputs: DriveTrainInputs, result: DriveTrainResult) -> DriveTrainInputs:
-    """Return the unit at the temperatures of its heat balance.
-
-    If there is no heat balance, return the unit unchanged.
-    """
+    """Unit at the temperatures of its heat balance. If there is no heat balance, return the unit unchanged."""
     heat, kelvin = result.heat, UNITS["c"].offset
     if heat is None:
         return inputs
@@ -334,10 +325,7 @@ def oil_temperature(inputs: DriveTrainInputs) -> float:
 
 
 def curve_over_the_flow(_: DriveTrainInputs, result: DriveTrainResult) -> FlowCurve:
-    """Solve the heat balance at oil flows between 0.25 and 4 times the oil flow of the case.
-
-    The losses and the loads are taken from the case.
-    """
+    """Solve the heat balance at oil flows between 0.25 and 4 times the oil flow of the case."""
     heat = heat_balance.heat_of(result.heat)
     assert result.over_the_flow is not None
     return result.over_the_flow(heat_balance.FLOWS * UNITS["l_per_min"].scale * heat.gear_flow)

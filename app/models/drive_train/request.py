@@ -46,10 +46,7 @@ class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
     ] = None
 
     def pair(self, rack_tip_radius: float) -> GearPairInputs:
-        """Return the solver's gear pair.
-
-        If the request gives no tip radius coefficient of the rack, `rack_tip_radius` is used.
-        """
+        """Solver's gear pair. If the request gives no tip radius coefficient of the rack, `rack_tip_radius` is used."""
         own = self.rack_tip_radius
         return self.si(GearPairInputs, rack_tip_radius=rack_tip_radius if own is None else own)
 
@@ -81,10 +78,7 @@ class TrainModel(
 
 
 def _isotropic(value: Any) -> Any:
-    """Convert the stiffness of a bearing from a single number into a matrix.
-
-    The bearing then has this stiffness in every direction. A value that is not a number is returned unchanged.
-    """
+    """Convert the stiffness of a bearing from a single number into a matrix."""
     if isinstance(value, int | float) and not isinstance(value, bool):
         return [[value, 0.0], [0.0, value]]
     return value
@@ -164,7 +158,6 @@ class ShaftBearing(Section):
     ] = None
 
     def unused(self) -> dict[str, bool]:
-        """Mark clearance, viscosity and feed temperature as unused if the bearing is not a plain bearing."""
         names = ("radial_clearance_um", "viscosity_pa_s", "feed_temperature_c")
         return dict.fromkeys(names, self.type != "journal")
 
@@ -264,10 +257,6 @@ class UnitCoupling(Section, of=si.UnitCoupling):
     lubricant: CouplingLubricant
 
     def unused(self) -> dict[str, bool]:
-        """Mark the coefficient of friction at rest as unused, because the shaft rotates.
-
-        Mark the oil as unused if a coefficient of friction is given.
-        """
         return {"friction.static_coefficient": True, "lubricant": self.friction.coefficient is not None}
 
 
@@ -346,11 +335,7 @@ class DriveTrainRequest(MeshInOil):
 
     @model_validator(mode="after")
     def bodies_hold_the_pumped_heat(self) -> Self:
-        """Set `thermal.bulk_includes_pumping` to true if the bulk temperature comes from the heat balance.
-
-        The heat balance already contains the heat of pumping. A request that has the heat balance and sets
-        `thermal.bulk_includes_pumping` to false is therefore refused.
-        """
+        """Set `thermal.bulk_includes_pumping` to true if the bulk temperature comes from the heat balance."""
         if not self.is_balanced:
             return self
         thermal = self.thermal
@@ -414,13 +399,6 @@ class DriveTrainRequest(MeshInOil):
         return reasons
 
     def unused(self) -> dict[str, bool]:
-        """Mark inputs as unused in addition to the inputs that the base class marks.
-
-        This method always marks the pumping loss and the mass of the casing. If the effect of the shafts or of the
-        couplings is switched off, it marks the couplings and their friction law. Without plain bearings, it marks their
-        film. If the thermal effect is switched off,
-        it marks the wall responses. If there is a heat balance, it marks the bulk temperatures of the gears.
-        """
         coupled = self.couplings and self.effects.shafts and self.effects.coupling
         plain = any(one.type == "journal" for shaft in (self.pinion_shaft, self.wheel_shaft) for one in shaft.bearings)
         return (
@@ -448,10 +426,6 @@ class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
         return self
 
     def unused(self) -> dict[str, bool]:
-        """Change two marks of the base class.
-
-        A warm-up does not use the list of states, but it uses the mass of the casing.
-        """
         return super().unused() | {"cooling.casing.mass_kg": False, "states": True}
 
     def inputs(self) -> warm_up.WarmUpInputs:  # type: ignore[override]

@@ -21,11 +21,7 @@ HUES = {
 
 
 def temperatures(_: WarmUpInputs, result: UnitWarmUp) -> Figure:
-    """Draw the temperatures of all nodes over time.
-
-    A second panel shows how much hotter the pinion's body is than the wheel's body. A mark shows the greatest
-    difference.
-    """
+    """Draw the temperatures of all nodes over time."""
     course = result.warm_up
     curves, time = course.curves, axis(WarmUpCurves, "time")
     bearings = [name for name in course.nodes if name not in HUES]

@@ -23,7 +23,6 @@ class FilmModel(Section, of=ehl.Model, without=("thermal",)):
     """Physical model of the film, and numerical resolution."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark the Eyring stress as unused if the film is Newtonian."""
         return super().unused() | {"eyring_stress_mpa": self.rheology == "newtonian"}
 
 
@@ -51,10 +50,6 @@ class LineContactRequest(Request):
         return super().options() | laws
 
     def unused(self) -> dict[str, bool]:
-        """Mark the temperatures of the surfaces as unused if the film is isothermal.
-
-        Mark the kind of oil as unused if the oil is given by its viscosity.
-        """
         isothermal = dict.fromkeys(("temperatures.surface_1_c", "temperatures.surface_2_c"), not self.model.thermal)
         return isothermal | {"lubricant.kind": not self.lubricant.by_sheet}
 

@@ -34,10 +34,7 @@ def face(width: float) -> Axis:
 
 
 def section(gears_of: Callable[[Any], GearPairInputs]) -> Declaration:
-    """Return the declaration of the figure that shows the transverse section of the gears.
-
-    `gears_of` takes the inputs of a calculation and returns the inputs of the gears.
-    """
+    """Return the declaration of the figure that shows the transverse section of the gears."""
     title = "Transverse section of the pair"
     return Declaration("section", title, "ISO 21771", lambda inputs, _: transverse_section(gears_of(inputs)))
 
@@ -131,11 +128,7 @@ def traces(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
 
 
 def contact_line_load(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the line load along the lines of contact, at the roll position with the largest line load.
-
-    A line of contact crosses the plane of action at the base helix angle. Simultaneous lines are one transverse base
-    pitch apart.
-    """
+    """Draw the line load along the lines of contact, at the roll position with the largest line load."""
     load, flank, geometry, width = result.load, result.flank, result.geometry, inputs.gears.face_width
     if load.max_at is None:
         raise NoFigure("no_load", "Without load there is no line load to draw", "load")
@@ -159,10 +152,7 @@ def contact_line_load(inputs: LoadDistributionInputs, result: LoadDistribution) 
 
 
 def transmission_error(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw the transmission error and the length of the lines of contact over the roll position.
-
-    Also draw the harmonics of the transmission error.
-    """
+    """Draw the transmission error and the length of the lines of contact over the roll position."""
     error, lines = result.transmission_error, result.contact_lines
     y, mean = axis(error.curves, "error", magnitude=False), Level(error.mean, f"mean {number(error.mean, 'µm')}")
     length = axis(lines.curves, "length")
@@ -177,11 +167,7 @@ def transmission_error(_: LoadDistributionInputs, result: LoadDistribution) -> F
 
 
 def path_of_contact(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw line load, pressure and sliding along the feature line.
-
-    The feature line is the diagonal of the flank from the corner where the mesh begins to the corner where the mesh
-    ends.
-    """
+    """Draw line load, pressure and sliding along the feature line."""
     curves, psi, pressure = result.feature_line, result.feature_line.psi, result.pressure.max
     points = path_points(inputs.gears)
     plain = parts.unnamed(points)
@@ -200,10 +186,7 @@ def path_of_contact(inputs: LoadDistributionInputs, result: LoadDistribution) ->
 
 
 def path_points(gears: GearPairInputs) -> list[Level]:
-    """Return vertical lines at the points A to E of the path of contact.
-
-    The positions are fractions of the length of the path.
-    """
+    """Return vertical lines at the points A to E of the path of contact."""
     path = meshing_path(gears)
     fractions = {name: (roll - path.start) / path.length for name, roll in points_of_contact(path).items()}
     return [Level(fraction, name, vertical=True) for name, fraction in fractions.items()]

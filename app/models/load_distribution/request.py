@@ -17,10 +17,6 @@ class FlankModifications(Section, of=si.Modifications, without=("lead_curve",)):
     """
 
     def unused(self) -> dict[str, bool]:
-        """Mark the length of a relief as unused if the height of this relief is zero.
-
-        Mark the exponent of the reliefs as unused if the heights of all reliefs are zero.
-        """
         amplitudes = {relief: getattr(self, f"{relief}_um") for relief in ("tip_relief", "root_relief", "end_relief")}
         lengths = {f"{relief}_length_mm": value == 0.0 for relief, value in amplitudes.items()}
         return lengths | {"relief_exponent": all(lengths.values())}
@@ -52,10 +48,7 @@ class GearPairRequest(Request):
 
 
 def distribution_inputs(request: Request, gears: GearPairInputs, load: si.Load) -> si.LoadDistributionInputs:
-    """Return the solver's inputs for the load distribution of the pair `gears` under `load`.
-
-    The modifications, the materials and the coefficient of friction are taken from the request.
-    """
+    """Return the solver's inputs for the load distribution of the pair `gears` under `load`."""
     return request.si(
         si.LoadDistributionInputs,
         gears=gears,
@@ -78,5 +71,4 @@ class LoadDistributionRequest(GearPairRequest):
         return distribution_inputs(self, self.gears.si(GearPairInputs), self.load.si(si.Load))
 
     def unused(self) -> dict[str, bool]:
-        """Mark the roughness as unused, because the loads do not depend on the roughness."""
         return {"materials.pinion.roughness_um": True, "materials.wheel.roughness_um": True}

@@ -62,11 +62,7 @@ def temperature_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def _maps(inputs: PumpingInputs, result: PumpingResult, name: str, scale: Scale, *critical: Level) -> list[Panel]:
-    """Return a map of the quantity `name` over face and angle for the tooth spaces of each gear.
-
-    The greatest value of each map is marked. In maps of a ratio, the least value is marked too. All maps have the same
-    scale of colours.
-    """
+    """Return a map of the quantity `name` over face and angle for the tooth spaces of each gear."""
     fields = {gear: space.field for gear, space in spaces(result)}
     grids: list[Values] = [getattr(field, name) for field in fields.values()]
     if any(grid is None for grid in grids):
@@ -145,10 +141,7 @@ CHOKING_FIGURES = (
 
 
 def stroke(_: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw the free area of a tooth space over one stroke, and below it the radial clearances over the same stroke.
-
-    The free area is the area that the mating tooth leaves free. The range in which the flanks are in contact is shaded.
-    """
+    """Draw the free area of a tooth space over one stroke, and below it the radial clearances over the same stroke."""
     gear, first = spaces(result)[0]
     course, curves = first.stroke, first.stroke.curves
     x = axis(curves, "angle", f"angle of the {gear} from the line of centres", magnitude=False)
@@ -186,11 +179,7 @@ def heating(inputs: PumpingInputs, result: PumpingResult) -> Figure:
 
 
 def peak_pressure(inputs: PumpingInputs, result: PumpingResult) -> Figure:
-    """Draw, along the face, the largest pressure of the stroke.
-
-    A line shows the pressure at which the flow in clearances becomes sonic. Both pressures are divided by the ambient
-    pressure.
-    """
+    """Draw, along the face, the largest pressure of the stroke."""
     lines, marks = [], []
     for gear, space in spaces(result):
         line = _along(inputs, gear, space.profile.position, space.profile.peak_pressure_ratio, HUES[gear])

@@ -29,11 +29,6 @@ class PumpingOptions(Section, of=si.PumpingModel):
     """Choices that the paper leaves open in the pumping model."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark the options that the chosen flow model does not use.
-
-        Only the pocket chain uses `closure`. Only gas dynamics uses `wall_transport`, and only if `gap` is `contact`.
-        The incompressible model does not use `slices`.
-        """
         return super().unused() | {
             "closure": self.flow != "pocket_chain",
             "wall_transport": self.flow != "gas_dynamics" or self.gap != "contact",
@@ -51,10 +46,7 @@ class _PumpingSetup(Request, of=si.PumpingSetup, without=("normal_backlash",)):
         return super().options() | {"slices": self.model.si(si.PumpingModel).slice_count}
 
     def assumed_by_the_model(self) -> dict[str, str]:
-        """Return the assumption that only the axial speed contributes to the stagnation temperature.
-
-        For the incompressible model, return no assumption.
-        """
+        """Return the assumption that only the axial speed contributes to the stagnation temperature."""
         return {} if self.model.flow == "incompressible" else {"model.flow": AXIAL_SPEED_ONLY}
 
 

@@ -25,11 +25,7 @@ def thermal_path(request: Any) -> Cost:
 
 
 def _checked_lines(request: Any) -> Cost:
-    """Estimate the time to solve the contacts of a scuffing check.
-
-    The contacts are solved along the feature line (the diagonal from A1 to E2). If the whole flank is checked, the
-    contacts are also solved along the profile line through the hottest place of the flank, and at a few places.
-    """
+    """Estimate the time to solve the contacts of a scuffing check."""
     path = thermal_path(request)
     return Cost((2 if request.model.line == "flank" else 1) * path.seconds, path.field)
 

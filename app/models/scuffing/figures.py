@@ -33,10 +33,7 @@ SHOWN_SAFETIES = 4.0  # end of the axis divided by the least factor; greater fac
 
 
 def temperature_on_flank(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw Blok's contact temperature over the flank, and the evaluated lines.
-
-    If the case has no oil, draw Blok's flash temperature instead of the contact temperature.
-    """
+    """Draw Blok's contact temperature over the flank, and the evaluated lines."""
     flank, width = result.flank, inputs.distribution.gears.face_width
     contact, largest = result.contact_temperature, result.flash.blok_max
     shown = axis(flank, "flash_temperature", "flash temperature")
@@ -63,10 +60,7 @@ def temperature_on_flank(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 def heat_over_flank(
     width: float, flank: Flank | FlankMaps, shown: Axis, grid: Values, limit: float | None, friction: float | None
 ) -> Panel:
-    """Return a map of a temperature over the flank; `width` is the face width [m].
-
-    There is a contour at `limit`, the temperature at which scuffing begins. `friction` is the coefficient of friction.
-    """
+    """Return a map of a temperature over the flank; `width` is the face width [m]."""
     if friction is None:
         message = (
             "Give an oil or a coefficient of friction; without one, the flash temperature of the flank is not known"
@@ -108,22 +102,14 @@ def contact_temperature(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
 
 def _bulk_of(result: Scuffing, surface: str) -> float:
-    """Return the bulk temperature [°C] of a surface.
-
-    If there is a heat balance and `surface` is "pinion" or "wheel", the bulk temperature of this gear is returned. In
-    all other cases, the bulk temperature of the pair is returned.
-    """
+    """Return the bulk temperature [°C] of a surface."""
     if result.heat is not None and surface in {"pinion", "wheel"}:
         return result.heat.pinion.flank if surface == "pinion" else result.heat.wheel.flank
     return present(result.contact_temperature).bulk
 
 
 def _flashes(path: ScuffingPath) -> list[Line]:
-    """Return lines that show the flash temperatures along a path.
-
-    If thermal EHL was solved, the first two lines show the flash temperatures of both flanks by thermal EHL. The last
-    line shows the flash temperature by Blok's formula.
-    """
+    """Return lines that show the flash temperatures along a path."""
     lines = list[Line]()
     if path.thermal is not None:
         lines.append(Line("pinion", path.psi, path.thermal.pinion_flash, Hue.BLUE))
@@ -141,10 +127,7 @@ def hottest_face(result: Scuffing) -> float | None:
 
 
 def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
-    """Return the evaluated lines of the flank. The keys are the names of the lines.
-
-    These lines are the feature line and, if calculated, the profile through the highest flash temperature.
-    """
+    """Return the evaluated lines of the flank. The keys are the names of the lines."""
     if result.hottest_path is None:
         return {"feature line": result.path}
     across = number(present(hottest_face(result)), "mm")
@@ -152,11 +135,7 @@ def _paths(result: Scuffing) -> dict[str, ScuffingPath]:
 
 
 def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Callable[[ScuffingPath], Panel]) -> Figure:
-    """Return a figure with a panel for each evaluated line. The panels have the same ordinate.
-
-    `panel` makes the panel of a line. This function adds the points A to E of the path of contact, and the ranges with
-    warnings.
-    """
+    """Return a figure with a panel for each evaluated line. The panels have the same ordinate."""
     points, panels = _points(inputs, result), list[Panel]()
     for path in _paths(result).values():
         line_panel = panel(path)
@@ -174,11 +153,7 @@ def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Callab
 
 
 def _common_limits(panels: Sequence[Panel]) -> tuple[float, float]:
-    """Return the limits of the ordinate that all panels share.
-
-    If the ordinate of the first panel has fixed limits, return these limits. Otherwise, return limits that
-    enclose the lines of all panels and the levels near these lines.
-    """
+    """Return the limits of the ordinate that all panels share."""
     axes = panels[0].y
     if axes.limits is not None:
         return axes.limits
@@ -200,11 +175,7 @@ def _with_oil(result: Scuffing) -> None:
 
 
 def safety_along(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw the safety factor at the points of the evaluated lines (Eq. 26).
-
-    The factor is the ratio of two temperature differences: scuffing temperature minus oil temperature, divided by
-    contact temperature minus oil temperature.
-    """
+    """Draw the safety factor at the points of the evaluated lines (Eq. 26)."""
     _with_oil(result)
     if result.safety is None:
         raise NoFigure(
@@ -249,11 +220,7 @@ def _safeties(result: Scuffing, path: ScuffingPath, oil: float, reserve: float) 
 
 
 def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw the film thickness along the evaluated lines. A level marks the film thickness that equals the roughness.
-
-    If thermal EHL was solved, two curves show the minimum and the central film of this solution. A further curve shows
-    the film by the formula of Dowson and Higginson.
-    """
+    """Draw the film thickness along the evaluated lines. A level marks the film thickness that equals the roughness."""
     _with_oil(result)
     thinnest, pair = present(result.film), inputs.distribution
     if thinnest.thickness_ratio is None:
@@ -294,10 +261,7 @@ def film_against_micropitting(inputs: ScuffingInputs, result: Scuffing) -> Figur
 
 
 def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw the local friction and the film pressure by thermal EHL along the evaluated lines.
-
-    The mean coefficient of friction that Blok's formula uses is drawn as a reference.
-    """
+    """Draw the local friction and the film pressure by thermal EHL along the evaluated lines."""
     _with_oil(result)
     mean = result.flash.friction_coefficient
     solutions = {name: (path.psi, path.thermal) for name, path in _paths(result).items() if path.thermal is not None}
@@ -339,10 +303,7 @@ def _unsolved(result: Scuffing) -> int:
 
 
 def _warned(path: ScuffingPath) -> list[Span]:
-    """Return the ranges of psi in which the points of a path have warnings.
-
-    A range ends midway between a point with warnings and a point without warnings. Only the first range has a label.
-    """
+    """Return the ranges of psi in which the points of a path have warnings."""
     psi, spans = path.psi, list[Span]()
     edges = np.concatenate([psi[:1], (psi[:-1] + psi[1:]) / 2.0, psi[-1:]])
     for status, group in groupby(range(psi.size), key=lambda place: path.status[place]):

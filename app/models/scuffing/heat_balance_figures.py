@@ -49,10 +49,7 @@ def heat_of(heat: Heat | None) -> Heat:
 
 
 def where_heat_goes(heat: Heat) -> Figure:
-    """Draw the heat that the losses supply, the heat that leaves each gear, and the heat that leaves the unit.
-
-    The heat that leaves a gear is divided among its carriers, for example the oil on the loaded flanks.
-    """
+    """Draw the heat that the losses supply, the heat that leaves each gear, and the heat that leaves the unit."""
     supplied = heat.balance.supplied / KILOWATT
     groups = (
         ("supplied", _summed(heat, SUPPLY, origins={"source"}), Hue.VERMILLION),
@@ -74,11 +71,7 @@ def where_heat_goes(heat: Heat) -> Figure:
 def _summed(
     heat: Heat, names: dict[str, str], *, origins: set[str] | None = None, targets: set[str] | None = None
 ) -> dict[str, float]:
-    """Sum the heat flows of each carrier, and return the sums [kW]. The largest sum comes first.
-
-    `names` holds the names of the carriers in the figure. If `origins` is given, only flows that start at these places
-    of the network are added. If `targets` is given, only flows that end at these places are added.
-    """
+    """Sum the heat flows of each carrier, and return the sums [kW]. The largest sum comes first."""
     powers: dict[str, float] = {}
     for flow in heat.flows:
         if (origins is None or flow.from_ in origins) and (targets is None or flow.to in targets):
@@ -99,10 +92,7 @@ def _out_of(heat: Heat, gear: str) -> dict[str, float]:
 
 
 def temperatures(heat: Heat, oil: float) -> Figure:
-    """Draw the temperatures of all nodes, and the uncertainty bands of the flank temperatures.
-
-    Lines show the oil temperature `oil` [°C] and the estimate of the bulk temperature by ISO/TR 13989-1.
-    """
+    """Draw the temperatures of all nodes, and the uncertainty bands of the flank temperatures."""
     band = heat.band
     rows = [
         Row("pinion, loaded flank", heat.pinion.flank, Hue.VERMILLION, None if band is None else band.pinion_flank),
@@ -140,10 +130,7 @@ def curve_over_the_flow(inputs: ScuffingInputs, result: Scuffing) -> FlowCurve:
 
 
 def what_the_flow_does(heat: Heat, curve: FlowCurve) -> list[Panel]:
-    """Return a list with one panel, which shows the temperatures of flanks and drained oil over the oil flow.
-
-    A vertical line marks the oil flow of the case.
-    """
+    """Return a list with one panel, which shows the temperatures of flanks and drained oil over the oil flow."""
     flow = curve.flow / UNITS["l_per_min"].scale
     lines = [
         Line("pinion flank", flow, curve.pinion_flank - KELVIN, Hue.VERMILLION),
@@ -165,10 +152,7 @@ def _own_flow(heat: Heat) -> Level:
 
 
 def oil_flow(inputs: ScuffingInputs, result: Scuffing, curve: FlowCurve) -> Figure:
-    """Draw the temperatures of flanks and drained oil, and the safety factor, over the oil flow to a gear pair.
-
-    Marks show the flows at which the verdict on the safety factor changes.
-    """
+    """Draw the temperatures of flanks and drained oil, and the safety factor, over the oil flow to a gear pair."""
     heat, safety, largest = heat_of(result.heat), result.safety, result.flash.blok_max
     scuffing = None if safety is None or largest is None else (safety.scuffing, largest)
     return over_the_oil_flow(heat, curve, inputs.temperatures.oil - KELVIN, scuffing, result.derived.bulk)
@@ -198,10 +182,7 @@ def over_the_oil_flow(
 
 
 def _flank_change(heat: Heat, curve: FlowCurve) -> str:
-    """Return a text with two temperatures of the pinion's flank: at twice the oil flow, and at the present oil flow.
-
-    If there is no solution at twice the oil flow, the text has only the temperature at the present oil flow.
-    """
+    """Return a text with two temperatures of the pinion's flank: at twice the oil flow, and at the present oil flow."""
     double = float(np.interp(2.0, FLOWS, curve.pinion_flank)) - KELVIN
     if np.isnan(double):
         return f"pinion flank {number(heat.pinion.flank, '°C')}"
@@ -214,10 +195,7 @@ def _factors(scuffing: float, oil: float, contact: Values) -> Values:
 
 
 def _verdicts(factors: Values) -> list[Level]:
-    """Return the lines that mark high risk and low risk in a figure of the safety factor.
-
-    The line for low risk is left out if no safety factor comes near it.
-    """
+    """Return the lines that mark high risk and low risk in a figure of the safety factor."""
     levels = [Level(HIGH_RISK_BELOW, "high risk below 1", limit=True)]
     if float(np.nanmax(factors)) > (HIGH_RISK_BELOW + LOW_RISK_ABOVE) / 2:
         levels.append(Level(LOW_RISK_ABOVE, "low risk above 2"))
@@ -235,11 +213,7 @@ def _first_crossing(line: Line, limit: float) -> Sequence[Mark]:
 
 
 def safety_over_the_band(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw the safety factor over the bulk temperature.
-
-    Marks show the nominal case, both ends of the uncertainty band, and the estimate of the bulk temperature by ISO/TR
-    13989-1.
-    """
+    """Draw the safety factor over the bulk temperature."""
     heat, safety, largest = heat_of(result.heat), result.safety, result.flash.blok_max
     if safety is None or safety.blok_factor is None or largest is None:
         raise NoFigure(

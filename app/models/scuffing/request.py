@@ -61,7 +61,6 @@ class ContactTemperatures(Section, of=si.Temperatures):
         return self
 
     def unused(self) -> dict[str, bool]:
-        """Mark `bulk_c` as unused if `bulk_method` is another method than "given"."""
         return {"bulk_c": self.bulk_method not in {None, "given"}}
 
 
@@ -90,11 +89,6 @@ class Micropitting(Section, of=si.MicropittingCheck):
     exclusive: ClassVar = (("failure_load_stage", "permissible_ratio"),)
 
     def unused(self) -> dict[str, bool]:
-        """Mark `failure_load_stage` and `material_factor` as unused if `permissible_ratio` is given.
-
-        Mark `surface` as unused in three cases: `permissible_ratio` is given, `material_factor` is given, or
-        `failure_load_stage` is not given.
-        """
         given = self.permissible_ratio is not None
         return dict.fromkeys(("failure_load_stage", "material_factor"), given) | {
             "surface": given or self.failure_load_stage is None or self.material_factor is not None
@@ -225,7 +219,6 @@ class MeshInOil(Request):
         return self.micropitting is not None and not relief and self.gears.helix_angle_deg == 0.0
 
     def unused(self) -> dict[str, bool]:
-        """Mark the inputs that have no effect in this case, for example the film's inputs if no oil is given."""
         dry, standard = not self.lubricant.known, self._standard_film_asked
         no_film = dry or self.model.lubrication == "closed_form"
         of_the_film = (name for name in Micropitting.model_fields if not name.startswith("wear"))
@@ -241,10 +234,7 @@ class MeshInOil(Request):
         }
 
     def assumed_by_the_model(self) -> dict[str, str]:
-        """Return the assumptions about friction, oil, bulk temperature and film.
-
-        If no oil is given, there are no such assumptions.
-        """
+        """Return the assumptions about friction, oil, bulk temperature and film."""
         reasons: dict[str, str] = {}
         if not self.lubricant.known:
             return reasons
@@ -292,7 +282,6 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
             return False
 
     def unused(self) -> dict[str, bool]:
-        """Mark the inputs that have no effect in this case, including two fields that only gear units use."""
         of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg")
         return super().unused() | dict.fromkeys(of_a_unit, True)
 

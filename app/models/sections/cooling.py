@@ -10,7 +10,6 @@ class CasingOfGears(Section, of=si.Casing):
     """The casing of the gears. If no area is given, the heat balance leaves the casing out."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark all fields except the area as unused if the area is not given."""
         return dict.fromkeys(type(self).model_fields, self.area_m2 is None) | {"area_m2": False}
 
 
@@ -33,11 +32,6 @@ class GearCooling(Section, of=si.Cooling):
     """The supply of oil to the teeth, further losses that heat the oil, and measured temperatures."""
 
     def unused(self) -> dict[str, bool]:
-        """Mark fields as unused if their values follow from other inputs that are given.
-
-        The oil flow determines the rise of the oil temperature. The measured temperature of a gear determines the
-        wetting share. The measured temperature of the drained oil determines the losses in the field `other_w`.
-        """
         measured = self.measured
         return {
             "flow_rise_k": self.gear_flow_l_per_min is not None,

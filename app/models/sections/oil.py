@@ -130,10 +130,6 @@ class SheetOil(Section):
         return sheet.reference_density if sheet and name == "density_15_kg_per_m3" else None
 
     def unused(self) -> dict[str, bool]:
-        """Mark the fields that supplement a grade or data sheet as unused if neither of the two is given.
-
-        If a grade or data sheet is given together with the viscosity index, mark the viscosity at 100 °C as unused.
-        """
         of_a_sheet = ("kinematic_viscosity_100_mm2_per_s", "viscosity_index", "density_15_kg_per_m3")
         by_index = {"kinematic_viscosity_100_mm2_per_s": self.viscosity_index is not None}
         return by_index if self.by_sheet else dict.fromkeys(of_a_sheet, True)
@@ -194,20 +190,14 @@ class Oil(SheetOil, of=Lubricant):
     @model_validator(mode="before")
     @classmethod
     def properties_follow_the_sheet(cls, given: Any) -> Any:
-        """Use null as the default of the oil's properties, so that they follow from the grade or data sheet.
-
-        If only the viscosity describes the oil, do not change the defaults of these properties.
-        """
+        """Use null as the default of the oil's properties, so that they follow from the grade or data sheet."""
         if not isinstance(given, dict) or (given.get("viscosity_pa_s") is not None and not _names_a_sheet(given)):
             return given
         return dict.fromkeys(_WITH_VISCOSITY) | given
 
     @model_validator(mode="after")
     def one_reference(self) -> Self:
-        """Refuse a density together with a grade or data sheet.
-
-        Also refuse a property that is null if the oil is described by its viscosity.
-        """
+        """Refuse a density together with a grade or data sheet."""
         if self.by_sheet and self.density_kg_per_m3 is not None:
             raise PydanticCustomError(
                 "exclusive",
@@ -236,7 +226,6 @@ class Oil(SheetOil, of=Lubricant):
         return self.by_sheet or self.viscosity_pa_s is not None
 
     def unused(self) -> dict[str, bool]:
-        """Mark what a grade or data sheet replaces, and the pressure-viscosity coefficient that 38 °C replaces."""
         of_one_temperature = dict.fromkeys(("reference_temperature_c", "density_kg_per_m3"), self.by_sheet)
         at_38 = self.by_sheet and self.pressure_viscosity_38_per_gpa is not None
         replaced = {"pressure_viscosity_per_gpa": at_38, "pressure_viscosity_38_per_gpa": not self.by_sheet}
@@ -289,10 +278,5 @@ class CouplingLubricant(SheetOil):
         return self.si(OilAtTeeth, viscosity=viscosity, viscosity_index=sheet.viscosity_index)
 
     def unused(self) -> dict[str, bool]:
-        """Mark the viscosity as unused if a grade or data sheet is given.
-
-        If neither a grade nor a data sheet is given, mark all fields of `SheetOil` and the temperature of the oil as
-        unused.
-        """
         of_a_sheet = () if self.by_sheet else (*SheetOil.model_fields, "temperature_c")
         return super().unused() | dict.fromkeys(of_a_sheet, True) | {"viscosity_pa_s": self.by_sheet}

@@ -60,10 +60,7 @@ def body_of(controls: Iterable[Control], typed: Mapping[str, str]) -> dict[str, 
 
 
 def _put(place: Any, parts: list[str], value: Any) -> None:
-    """Set a value at the end of a path through nested dictionaries and lists.
-
-    If the path names the position after the last item of a list, append to the list.
-    """
+    """Set a value at the end of a path through nested dictionaries and lists."""
     for part, following in zip(parts, [*parts[1:], None], strict=True):
         key: Any = int(part) if isinstance(place, list) else part
         inner: Any = value if following is None else [] if following.isdecimal() else {}
@@ -77,10 +74,7 @@ def _put(place: Any, parts: list[str], value: Any) -> None:
 
 
 def texts_of(controls: Iterable[Control], body: Any) -> dict[str, str]:
-    """Return the text of each control from which `body_of` would make this body.
-
-    Controls that have their default value are left out.
-    """
+    """Return the text of each control from which `body_of` would make this body."""
     values = ((control, value_at(body, control.path)) for control in controls if control.sets)
     return {control.name: text_of(value) for control, value in values if value is not None and value != control.default}
 

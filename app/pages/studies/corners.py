@@ -32,12 +32,7 @@ class CornersPage(UnitPage):
     study: Corners
 
     def body(self) -> dict[str, Any]:
-        """Return the body of the request for the study.
-
-        The body contains the values that the user typed for the uncertain inputs, or the usual values if the user typed
-        none. The requested outputs are the output that the page shows, and all headline numbers that need neither the
-        thermal film nor the cold state.
-        """
+        """Return the body of the request for the study."""
         output, paths = self.output.path, [leaf.path for leaf in headlines(self.calculation.response)]
         deciding = [path for path in paths if not (needs_film(DRIVE_TRAIN, path) or path.startswith(COLD))]
         return {
@@ -47,13 +42,7 @@ class CornersPage(UnitPage):
         }
 
     def result(self, lines: list[Line]) -> Result:
-        """Return two figures and two tables.
-
-        One figure shows the effect of each uncertain input. The other figure compares the load along the face at the
-        worst corner with the load of the case as entered. One table lists the extremes of each output, and the other
-        table lists the inputs at the worst corner. If the output has no value at any corner, there are no figures and
-        no tables.
-        """
+        """Return two figures and two tables."""
         end, output = lines[-1], self.output
         extremes = {line["output"]: line for line in lines if line["type"] == "extremes"}
         progress = f"{end['points']} corners in {shown(end['elapsed_s'], 2)} s"
@@ -74,11 +63,7 @@ class CornersPage(UnitPage):
         return Result(progress, {"corners": figure, **load}, tables, tuple(remarks), leads)
 
     def _rows(self, lines: list[Line], worst: Overrides) -> list[Row]:
-        """Return one row of a dot plot per uncertain input, with one dot per value of the input.
-
-        The position of a dot is the worst output among all corners at which the input has this value. If none of these
-        corners has a solution, the dot is left out.
-        """
+        """Return one row of a dot plot per uncertain input, with one dot per value of the input."""
         points = [line for line in lines if line["type"] == "point" and line["out"][0] is not None]
         pick = min if self.output.view.greatest_is_best else max
         rows = []
@@ -98,10 +83,7 @@ class CornersPage(UnitPage):
         return rows
 
     def _extremes(self, extremes: dict[str, Line], case: SolvedCase) -> Table:
-        """Return a table of the least and the largest value of each output.
-
-        Each least or largest value is a link to the corner at which the value occurs.
-        """
+        """Return a table of the least and the largest value of each output."""
         rows = []
         for leaf in self.study.outputs:
             if leaf.path in extremes:

@@ -57,11 +57,7 @@ class DesignPage(UnitPage):
     plan = Design
 
     def body(self) -> dict[str, Any]:
-        """Return the body of the study's request.
-
-        The body contains the ranges of the corrections and the values of the uncertain inputs. The user can type these
-        ranges and values; otherwise the defaults are used. The inputs in `left_alone` have no defaults.
-        """
+        """Return the body of the study's request."""
         output, given = self.output, self.given()
         for (_, paths, *_), variable in zip(GROUND, given["variables"], strict=True):
             variable |= {"path": list(paths), "step": STEP_UM}
@@ -73,21 +69,13 @@ class DesignPage(UnitPage):
         }
 
     def declared(self) -> tuple[Control, ...]:
-        """Return the controls for the number of trials, the ranges of the corrections and the uncertain inputs.
-
-        Further items state where errors are shown. Errors of a correction are shown at the lower end of its range, and
-        errors of the objective are shown at the menu of outputs.
-        """
+        """Return the controls for the number of trials, the ranges of the corrections and the uncertain inputs."""
         whole = (Control(f"low.{place}", f"variables.{place}", sets=False) for place in range(len(GROUND)))
         objective = Control(OUTPUT.name, "objective", sets=False)
         return (TRIALS, *ENDS, *whole, objective, *super().declared())
 
     def controls(self) -> tuple[Controls, ...]:
-        """Return two groups of form fields.
-
-        One group contains the number of trials and the ranges of the corrections. The other group contains the values
-        of the uncertain inputs.
-        """
+        """Return two groups of form fields."""
         fields = tuple(map(self.field_of, (TRIALS, *ENDS)))
         return Controls("Search", fields=fields), *super().controls()
 
@@ -176,12 +164,7 @@ class DesignPage(UnitPage):
         return Table("What to grind", ("gear", "correction", "where", *numbered, "unit"), rows, note)
 
     def _before_and_after(self, end: Line, wanted: Line, case: SolvedCase, ground: SolvedCase) -> Table:
-        """Return a table that compares the output before and after the correction.
-
-        One column is for the correction as entered, and one column is for the best correction. The first row states
-        the output with the worst values of the uncertain inputs, and the second row with the values as entered. If the
-        best correction worsens the output in the second row, the table has a note.
-        """
+        """Return a table that compares the output before and after the correction."""
         output = self.output
         before, after = (value_at(unit_case.response, output.path) for unit_case in (case, ground))
         unit, note = output.unit or "", ""
@@ -197,10 +180,7 @@ class DesignPage(UnitPage):
         return Table("What it brings", (output.title, Number("as described"), Number("ground so"), "unit"), rows, note)
 
     def _lead_chart(self, case: SolvedCase, at: Overrides) -> Figure:
-        """Return the figure of the lead, which is the sum of helix slope and crowning.
-
-        The solid line is the lead to grind, with its tolerance band. The dashed line is the lead as entered.
-        """
+        """Return the figure of the lead, which is the sum of helix slope and crowning."""
         curves, inputs = case.response.misalignment.curves, case.response.inputs
         position = values(curves.position_mm)
         wanted = Lead(*(float(at[path] or 0.0) for path in (SLOPE, CROWNING)))
@@ -241,12 +221,7 @@ def _numbers(case: SolvedCase, end: Line, at: Overrides) -> Table:
 
 
 def _gap(ground: SolvedCase, case: SolvedCase) -> dict[str, Figure]:
-    """Return the figure of the gap between the flanks over the face.
-
-    Solid lines show the gap with the correction to grind, and dashed lines the gap with the correction as entered. In
-    both calculations, the uncertain inputs have the values as entered. If one of the two
-    calculations has no such figure, return an empty dictionary.
-    """
+    """Return the figure of the gap between the flanks over the face."""
     try:
         own, given = (GAP.figure(unit_case.request, unit_case.response) for unit_case in (ground, case))
     except NoFigure:

@@ -148,10 +148,7 @@ class StudyPage(ABC):
 
     @abstractmethod
     def result(self, lines: list[Line]) -> Result:
-        """Return the content of the result that the page shows, from the lines of the study's answer.
-
-        If the page `grows`, this method is also called with the lines that have arrived so far.
-        """
+        """Return the content of the result that the page shows, from the lines of the study's answer."""
 
     def controls(self) -> tuple[Controls, ...]:
         """Return the groups of controls above the menu of outputs."""
@@ -169,10 +166,7 @@ class StudyPage(ABC):
         return ()
 
     def given(self) -> dict[str, Any]:
-        """Return the parts of the body that the declared controls set.
-
-        If a control is empty, the part of the body that it sets gets the default value of the control.
-        """
+        """Return the parts of the body that the declared controls set."""
         return body_of(self.declared(), self.views)
 
     def starters(self) -> Sequence[Starter | StudyExample]:
@@ -208,10 +202,7 @@ class StudyPage(ABC):
         return menu(name, label, empty, choices, chosen, dict(self.faults).get(name))
 
     def field(self, name: str, label: str, usual: Scalar = None, unit: str = "", options: Options = ()) -> FieldView:
-        """Return a form field with the typed text, and with the usual value as placeholder.
-
-        The field is a menu if there are options.
-        """
+        """Return a form field with the typed text, and with the usual value as placeholder."""
         return FieldView(
             name=name,
             label=label,
@@ -228,20 +219,14 @@ class StudyPage(ABC):
         return self.field(control.name, control.label, control.default, control.unit, control.options)
 
     def control_at(self, path: str) -> str:
-        """Return the name of the control that sets the part of the body at `path`.
-
-        If this part is a field of the case, return the path of the field within the case.
-        """
+        """Return the name of the control that sets the part of the body at `path`."""
         head, *rest = path.split(".")
         if head == "request":
             return ".".join(rest)
         return control_at((OUTPUT, *self.declared()), path)
 
     def view(self, below: str) -> str:
-        """Return the address of a file, a figure or the report of this page.
-
-        `below` is appended to the path of this page. If `below` is empty, return the address of the page itself.
-        """
+        """Return the address of a file, a figure or the report of this page."""
         kept = control_names() | {"theme", *FILE_NAMES}
         views = {name: text for name, text in self.views.items() if name in kept}
         return link(f"{self.asked.path}/{self.link.name}{below}", self.asked.pairs, **views, sources=SHORT_SOURCES)
@@ -267,20 +252,13 @@ class StudyPage(ABC):
         return scalar_at(self.calculation.request, path, "", "unknown_path")
 
     def address(self, overrides: Overrides, below: str = "") -> str:
-        """Return the address of the case with the values of one point of the study.
-
-        `overrides` holds the values of this point. `below` is appended to the path of the address and selects a view
-        such as the report.
-        """
+        """Return the address of the case with the values of one point of the study."""
         body = with_overrides(self.calculation, self.asked.body, overrides)
         del body["detail"]
         return link(f"{self.asked.path}{below}", pairs_of(body), theme=self.asked.theme)
 
     def solved(self, overrides: Overrides) -> SolvedCase:
-        """Return the case with the values of one point of the study, and with the answer for this point.
-
-        `overrides` holds the values of the point. Only the parts of the answer that the outputs need are calculated.
-        """
+        """Return the case with the values of one point of the study, and with the answer for this point."""
         body = with_overrides(self.calculation, self.asked.body, overrides)
         outputs = [leaf.path for leaf in self.study.outputs]
         return solved(self.calculation, pairs_of(reduced_request(self.calculation.path, body, outputs)), None)
@@ -332,11 +310,7 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
 
 
 def checked(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) -> StudyPage:
-    """Return the page with the study that the query asks for.
-
-    Raise one of the errors in REFUSED if the query is rejected. The error states where the fault lies in the request
-    body.
-    """
+    """Return the page with the study that the query asks for."""
     page = kind(asked)
     page.study = page.plan(page.body(), most, deadline_s)
     return page
@@ -406,11 +380,7 @@ def report_progress(page: StudyPage, done: int, *, has_ended: bool = False, prob
 
 
 def report(page: StudyPage, lines: list[Line], host: str) -> bytes:
-    """Return the style sheet and the body of a case's report, with a section about the study.
-
-    The style sheet and the body are sent after the parts that show the progress. If the case itself cannot be
-    calculated, return a part of the document with a message about this problem.
-    """
+    """Return the style sheet and the body of a case's report, with a section about the study."""
     section = {
         "title": page.link.label,
         "link": "" if page.too_long else page.view(""),

@@ -36,11 +36,7 @@ class SensitivityPage(StudyPage):
         return {"endpoint": self.calculation.path, "request": self.asked.body, "outputs": outputs}
 
     def result(self, lines: list[Line]) -> Result:
-        """Return a bar chart and a table of the inputs.
-
-        Chart and table show how much the output changes if an input is changed by one step. The input that changes the
-        output most comes first.
-        """
+        """Return a bar chart and a table of the inputs."""
         end, output = lines[-1], self.output
         inputs = {moved["path"]: moved for moved in end["inputs"]}
         steps, rows = list[Influence](), []

@@ -77,10 +77,7 @@ def _tolerance(place: int, name: str, about: Any = None, by: Any = None) -> list
 
 
 def _stated(law: str, about: Any, by: Any) -> dict[str, Any]:
-    """Convert mean and width into the parameters of a distribution.
-
-    The result is empty if the distribution is not known; the validation of the body then reports the error.
-    """
+    """Convert mean and width into the parameters of a distribution."""
     if names := STATED.get(law):
         return dict(zip(names, (about, by), strict=True))
     ends = {"uniform": ("min", "max"), "triangular": ("min", "mode", "max")}.get(law, ())
@@ -88,10 +85,7 @@ def _stated(law: str, about: Any, by: Any) -> dict[str, Any]:
 
 
 def _typed(scatter: dict[str, Any]) -> dict[str, Any]:
-    """Convert a distribution in the body into the values of the controls.
-
-    The controls have no mode, so a triangular distribution gets its mode in the middle of its range.
-    """
+    """Convert a distribution in the body into the values of the controls."""
     law = scatter["distribution"]
     if names := STATED.get(law):
         about, by = (scatter[name] for name in names)
@@ -103,11 +97,7 @@ def _typed(scatter: dict[str, Any]) -> dict[str, Any]:
 def address_of(
     endpoint: Calculation, request: Pairs, body: dict[str, Any], file: Mapping[str, str] = MappingProxyType({})
 ) -> str:
-    """Return the address of the page that shows the study with this body.
-
-    If the body has several limits, the address contains only the first limit. `file` names the file from which the
-    study was read.
-    """
+    """Return the address of the page that shows the study with this body."""
     inputs, views = [_typed(scatter) for scatter in (body.get("tolerances") or {"inputs": []})["inputs"]], dict(file)
     given = {
         "cases": table_of(endpoint, body["cases"]),
@@ -144,10 +134,7 @@ class SpectrumPage(StudyPage):
     study: Spectrum
 
     def body(self) -> dict[str, Any]:
-        """Return the body with the typed cases, tolerances and limit.
-
-        The requested outputs are the output that the page shows, and the losses.
-        """
+        """Return the body with the typed cases, tolerances and limit."""
         calculation, output, given = self.calculation, self.output.path, self.given()
         tolerances = given["tolerances"]
         typed = tolerances.get("inputs", [])
@@ -171,10 +158,7 @@ class SpectrumPage(StudyPage):
         return [name for name in TOLERANCES if self.views.get(name)]
 
     def declared(self) -> tuple[Control, ...]:
-        """Return the controls for cases, machines, hours of operation, limit and tolerances.
-
-        The default mean of a tolerance is the value of the field in the case.
-        """
+        """Return the controls for cases, machines, hours of operation, limit and tolerances."""
         controls = [
             *CONTROLS,
             Control("machines", "tolerances", sets=False),
@@ -191,10 +175,7 @@ class SpectrumPage(StudyPage):
         return (*controls, *(Control(name, "tolerances.inputs", sets=False) for name in self._given()[:1]))
 
     def _scatter(self, given: dict[str, Any], where: str) -> dict[str, Any]:
-        """Convert what the user typed for a tolerance into the form in which a request states a distribution.
-
-        `given` holds the path of the field, the name of the distribution, the mean and the width.
-        """
+        """Convert what the user typed for a tolerance into the form in which a request states a distribution."""
         leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
         about: Any = given.get("mean")
         by: Any = given.get("deviation")
@@ -236,11 +217,7 @@ class SpectrumPage(StudyPage):
         return [{"output": self.output.path, side: threshold}]
 
     def controls(self) -> tuple[Controls, ...]:
-        """Return a group of form fields for the table of cases, and one group per tolerance.
-
-        After the group of the last tolerance that is filled in, there are two empty groups for further tolerances. The
-        number of groups for tolerances is limited to the number of names in `TOLERANCES`.
-        """
+        """Return a group of form fields for the table of cases, and one group per tolerance."""
         case = self.case
         text = as_typed(self.views.get("cases", "")) or suggested(self.calculation, case)
         about = (
@@ -287,11 +264,7 @@ class SpectrumPage(StudyPage):
         return starters
 
     def result(self, lines: list[Line]) -> Result:
-        """Return the figures and tables of the study.
-
-        They show the probability of exceeding the limit, the cases that are most often the worst case, the influence of
-        the tolerances, and the losses.
-        """
+        """Return the figures and tables of the study."""
         header, end, output = lines[0], lines[-1], self.output
         cases = len(self.study.cases)
         machines = end["points"] // cases
@@ -326,10 +299,7 @@ class SpectrumPage(StudyPage):
         return Result(progress, figures | self._losses(end), tables, remarks, leads)
 
     def _limited(self, end: Line, limit: Line) -> Limited:
-        """Return the data that the figures about a limit show.
-
-        If there are more than `MOST_BARS` cases, the data contain only the cases that are most often beyond the limit.
-        """
+        """Return the data that the figures about a limit show."""
         place = end["limits"].index(limit)
         decides = limit["decides"] or [None] * len(end["cases"])
         cases = [
@@ -343,10 +313,7 @@ class SpectrumPage(StudyPage):
         return Limited(axis_of(self.output), limit, [case for case in cases if case in worst], influences)
 
     def _losses(self, end: Line) -> dict[str, Figure]:
-        """Return a dictionary with one figure, which shows the mean losses in each case [kW].
-
-        If no loss has a mean value, the dictionary is empty.
-        """
+        """Return a dictionary with one figure, which shows the mean losses in each case [kW]."""
         wanted, outputs = self.calculation.words.losses, end["outputs"]
         titles = {leaf.path: leaf.title for leaf in self.study.outputs}
         drawn_losses = {path: titles[path] for path in wanted if outputs[path]["mean"] is not None}
@@ -375,12 +342,7 @@ class SpectrumPage(StudyPage):
         return Table("Limit", ("output", "side", Number("limit"), Number("deviation"), "unit", "source"), (row,))
 
     def _cases_table(self, end: Line, limit: Line | None) -> Table:
-        """Return a table with one row per load case.
-
-        A row has the case's share of the operating time, the probability of exceeding the limit, the fraction of
-        machines for which the case is the worst case, the quantiles of the output, and the fraction of machines without
-        a solution.
-        """
+        """Return a table with one row per load case."""
         output, rows = self.output, list[tuple[str | Link, ...]]()
         for index, (case, content) in enumerate(zip(self.study.cases, end["cases"], strict=True)):
             row: list[str | Link] = [Link(content["name"], self.address(case.set)), percent(content["share"])]
@@ -399,10 +361,7 @@ class SpectrumPage(StudyPage):
         return Table("Cases", ("case", *map(Number, heads)), rows, f"{note} Click a name to open the nominal case.")
 
     def _outputs_table(self, end: Line) -> Table:
-        """Return a table with one row per output: the mean over the operating time, and the extremes.
-
-        Each extreme is printed as a link that opens the machine and the case with this extreme.
-        """
+        """Return a table with one row per output: the mean over the operating time, and the extremes."""
         rows = []
         for leaf in self.study.outputs:
             content = end["outputs"][leaf.path]
@@ -421,21 +380,13 @@ class SpectrumPage(StudyPage):
 
 
 def _deviation(value: float | None, unit: str | None, digits: int) -> str:
-    """Return a difference of two values as text.
-
-    `unit` is the unit of the values. If a difference has another unit (K instead of degrees Celsius), the text states
-    this other unit.
-    """
+    """Return a difference of two values as text."""
     own = difference_unit(unit)
     return shown(value, digits) if own == unit or value is None else number(value, own, digits)
 
 
 def _tolerances_table(header: Line, limit: Line | None) -> Table:
-    """Return a table of the fields that scatter, with their distributions.
-
-    For each field, the table states how large a share of the distribution is cut off. The table also states the rank
-    correlation between the value of the field and the output in the worst case.
-    """
+    """Return a table of the fields that scatter, with their distributions."""
     numbers = ("mean", "deviation", "median", "factor", "min", "mode", "max")
     ranks = (limit and limit["rank_correlation"]) or {}
     rows = []

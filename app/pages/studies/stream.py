@@ -24,10 +24,7 @@ logger = logging.getLogger("tribodrive")
 
 
 async def pieces(pool: Callable[[], Pool], opened: Opened, lines: Lines, clock: Clock) -> AsyncGenerator[bytes, None]:
-    """Yield the page of a study: the head of the page, then results, then the tail of the page.
-
-    Each result replaces the result before it.
-    """
+    """Yield the page of a study: the head of the page, then results, then the tail of the page."""
     yield opened.head
     received, due = list[Line](), FIRST_FRAME_S
     async with aclosing(lines):
@@ -44,11 +41,7 @@ async def pieces(pool: Callable[[], Pool], opened: Opened, lines: Lines, clock: 
 async def report_pieces(
     pool: Callable[[], Pool], page: StudyPage, host: str, lines: Lines, clock: Clock
 ) -> AsyncGenerator[bytes, None]:
-    """Yield the parts of a document that first shows the progress of a study, and finally the report of the study.
-
-    While the study runs, each part shows the number of solved points. The last part is the report. Each part replaces
-    the part before it. `host` is the beginning of the addresses in the report.
-    """
+    """Yield the parts of a document that first shows the progress of a study, and finally the report of the study."""
     yield report_head(page) + report_progress(page, 0)
     received, due = list[Line](), FIRST_FRAME_S
     async with aclosing(lines):

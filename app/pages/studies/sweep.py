@@ -162,10 +162,7 @@ class SweepPage(StudyPage):
         return best == "greatest"
 
     def body(self) -> dict[str, Any]:
-        """Return the body with the axes, the output that the page shows, and the criterion for the best point.
-
-        If the user does not type an end of an axis, the usual end is used.
-        """
+        """Return the body with the axes, the output that the page shows, and the criterion for the best point."""
         goal = "maximise" if self.is_greatest_best else "minimise"
         x, y = map(self.views.get, AXES)
         if y and not x:
@@ -181,10 +178,7 @@ class SweepPage(StudyPage):
         }
 
     def controls(self) -> tuple[Controls, ...]:
-        """Return a group of controls for each axis: a menu of fields, and form fields for the range of the axis.
-
-        The placeholders of the form fields are the usual ends and the usual number of points.
-        """
+        """Return a group of controls for each axis: a menu of fields, and form fields for the range of the axis."""
         fields = dict(zip(AXES, self.study.points.varied, strict=False)) if self.study else {}
         groups = []
         for name, title, empty in (("x", "Vary", "choose …"), ("y", "and, as curves or a map", "nothing else")):
@@ -201,27 +195,18 @@ class SweepPage(StudyPage):
         return tuple(groups)
 
     def shows(self) -> tuple[FieldView, ...]:
-        """Return the menu with which the user states the best value of the output.
-
-        The best value is the least or the greatest value. If the user chooses neither, the output decides.
-        """
+        """Return the menu with which the user states the best value of the output."""
         ends = (("", "by the output"), ("least", "least"), ("greatest", "greatest"))
         return (self.field("best", "the best is", options=ends),)
 
     def starters(self) -> Sequence[Starter | StudyExample]:
-        """Return links to ready studies.
-
-        If the query has a case, the studies vary this case. If the query has no case, the studies vary the examples.
-        """
+        """Return links to ready studies."""
         if not self.asked.pairs:
             return studies_of(self.calculation)
         return studies_of_case(self.calculation, self.asked.pairs, self.case)
 
     def result(self, lines: list[Line]) -> Result:
-        """Return the figures. After the end of the study, also return a table of the points.
-
-        Each row of the table has a link to the case at its point.
-        """
+        """Return the figures. After the end of the study, also return a table of the points."""
         received = [line for line in lines if line["type"] == "point"]
         grid = self._grid(received)
         figures = figures_of(grid)
@@ -268,11 +253,7 @@ class SweepPage(StudyPage):
         )
 
     def _coordinate(self, name: str, leaf: Leaf, axis_in_sweep: CheckedAxis) -> tuple[Coordinate, list[int]]:
-        """Return the values of an axis of the sweep as a coordinate of the figure, and the order of these values.
-
-        Numbers are sorted in ascending order; other values keep their order. The order is a list of indices into the
-        values of the axis.
-        """
+        """Return the values of an axis of the sweep as a coordinate of the figure, and the order of these values."""
         in_sweep = axis_in_sweep.values or []
         if not all(map(is_plain_number, in_sweep)):
             order = list(range(len(in_sweep)))
@@ -305,10 +286,7 @@ class SweepPage(StudyPage):
         return self.address(self.study.points.overrides(index))
 
     def _script(self, received: list[Line], figure: Figure) -> str:
-        """Return the data for the script of the page, as JSON. The script opens the case at the mouse pointer.
-
-        The result is empty if the form has no field for one of the axes.
-        """
+        """Return the data for the script of the page, as JSON. The script opens the case at the mouse pointer."""
         points = self.study.points
         if None in [leaf_at(self.calculation.request, leaf.path) for leaf in points.varied]:
             return ""

@@ -32,21 +32,14 @@ class UnitPage(StudyPage):
 
     @cached_property
     def uncertain(self) -> dict[str, Axis]:
-        """Study axes with the usual values of the uncertain inputs; the keys are the names of the inputs.
-
-        The dictionary is empty if the request is invalid.
-        """
+        """Study axes with the usual values of the uncertain inputs; the keys are the names of the inputs."""
         try:
             return usual_corners(BaseRequest(self.calculation, self.asked.body).checked({}))
         except REFUSED:
             return {}
 
     def declared(self) -> tuple[Control, ...]:
-        """Return one form control per uncertain input, in which the user types the values of this input.
-
-        By default, a control contains the usual values of its input. The controls of the inputs in `left_alone` are
-        empty by default. Errors that concern all uncertain inputs together are shown at the first control.
-        """
+        """Return one form control per uncertain input, in which the user types the values of this input."""
         controls: list[Control] = []
         for quantity, axis in self.uncertain.items():
             name = control_of(quantity)
@@ -70,10 +63,7 @@ class UnitPage(StudyPage):
         return (Controls("Uncertain inputs", fields=tuple(fields), about=about),)
 
     def corner_table(self, title: str, case: SolvedCase, corner: Overrides) -> Table:
-        """Return a table of the inputs that a corner changes.
-
-        The table contains the values as described by the user and the values at the corner.
-        """
+        """Return a table of the inputs that a corner changes."""
         rows = []
         for path, value in corner.items():
             leaf = self.input(path)
@@ -83,21 +73,13 @@ class UnitPage(StudyPage):
 
 
 def _typed(axis: Axis, text: str) -> dict[str, Any]:
-    """Return the path of an uncertain input, and the values that the user typed for this input.
-
-    Semicolons separate the values. If several fields change together, blanks separate the values of these fields.
-    """
+    """Return the path of an uncertain input, and the values that the user typed for this input."""
     rows = [[number_of(part) for part in row.split()] for row in text.split(";")]
     return {"path": axis.path, "values": [row[0] if len(row) == 1 else row for row in rows]}
 
 
 def load_figure(case: SolvedCase, reference: SolvedCase, name: str, finding: str) -> dict[str, Figure]:
-    """Return the figure that compares the load along the face in two cases.
-
-    The lines of `case` are solid, and the lines of `reference` are dashed. `name` is the name of `case` in the legend.
-    The caption of the figure begins with the text `finding`. The result is empty if the load of one of the two cases
-    cannot be drawn.
-    """
+    """Return the figure that compares the load along the face in two cases."""
     try:
         own, given = (LOAD_ALONE.figure(drawn_case.request, drawn_case.response) for drawn_case in (case, reference))
     except NoFigure:

@@ -333,10 +333,7 @@ def test_warnings_count_the_points_they_concern(pair_1: Scuffing) -> None:
 
 
 def compressor_gears(power: float, points: int = 11) -> ScuffingInputs:
-    """Return a wide, fast pair with a thick film.
-
-    Its module is 7 mm, its speed is 2000 1/min, and it transmits `power` [W].
-    """
+    """Wide, fast pair with a thick film. Its module is 7 mm, its speed is 2000 1/min, and it transmits `power` [W]."""
     gears = GearPairInputs(GearTeeth(47), GearTeeth(117), 7e-3, 0.2, rack_tip_radius=0.38)
     speed = angular_speed(2000.0)
     distribution = LoadDistributionInputs(gears=gears, load=Load(power / speed, speed))
