@@ -69,10 +69,8 @@ def pointer(path: str) -> str:
 @pytest.mark.parametrize("value", NO_NUMBERS, ids=lambda each: str(each)[:9])
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 def test_number_fields_refuse_what_is_no_number(client: httpx.Client, calculation: Calculation, value: Any) -> None:
-    """The service reports every number field with a wrong value.
-
-    The test sends at most 90 wrong fields per request, because an answer reports at most 100 errors.
-    """
+    """The service reports every number field with a wrong value."""
+    # The test sends at most 90 wrong fields per request, because an answer reports at most 100 errors.
     every = sorted(set(number_fields(calculation.request)))
     for paths in (every[start : start + 90] for start in range(0, len(every), 90)):
         response = send(client, calculation.path, changed(example_of(calculation), dict.fromkeys(paths, value)))

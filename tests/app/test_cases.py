@@ -131,21 +131,17 @@ def test_fields_of_list_items_are_found() -> None:
     ],
 )
 def test_what_a_solver_of_many_parts_names_is_found(said: str, meant: str | None) -> None:
-    """A solver's name of an input leads to the field of the request.
-
-    If several fields match, the outermost field is meant. For a list item, the item's own field is meant, or the item
-    itself if it lacks the field.
-    """
+    """A solver's name of an input leads to the field of the request."""
+    # If several fields match, the outermost field is meant. For a list item, the item's own field is meant, or the item
+    # itself if it lacks the field.
     _, request = case("starter-turbo-gear-drive-train")
     assert field_path(request, said) == meant
 
 
 @pytest.mark.parametrize("name", sorted(examples()))
 def test_defaults_are_the_solver_s(name: str) -> None:
-    """If a request leaves out a field with a default, the solver gets its own default.
-
-    Methods are not checked, because they follow from other fields.
-    """
+    """If a request leaves out a field with a default, the solver gets its own default."""
+    # Methods are not checked, because they follow from other fields.
     example = examples()[name]
     calculation = BY_PATH[example.endpoint]
     request = calculation.request.model_validate(example.request)

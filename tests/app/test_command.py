@@ -83,10 +83,8 @@ def test_processes_of_servers_do_not_matter(case: Path, monkeypatch: pytest.Monk
 @pytest.mark.parametrize("path", ["/v1/coupling", "/v1/nothing"])
 @pytest.mark.ci
 def test_what_cannot_be_printed_ends_with_a_line(path: str) -> None:
-    """If the standard output is full, the process ends with one line of explanation.
-
-    Python itself would complain if it could not flush the standard output at the end.
-    """
+    """If the standard output is full, the process ends with one line of explanation."""
+    # Python itself would complain if it could not flush the standard output at the end.
     environment = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0", "WEB_CONCURRENCY": "a"}
     with Path("/dev/full").open("w") as full:
         ended = subprocess.run(

@@ -104,10 +104,8 @@ def test_a_coefficient_of_friction_says_by_itself_that_it_is_given() -> None:
 
 
 def test_the_losses_have_a_friction_of_their_own() -> None:
-    """The losses use a mean coefficient of friction, scuffing uses a larger coefficient.
-
-    Load factors raise only the coefficient for scuffing.
-    """
+    """The losses use a mean coefficient of friction, scuffing uses a larger coefficient."""
+    # Load factors raise only the coefficient for scuffing.
     power = {"load": {"power_kw": 400, "pinion_speed_rpm": 1500}}
     plain, loaded = (solved(SCUFFING, STAGE, {**power, "load.application_factor": factor}) for factor in (1.0, 2.5))
     for answer, highest in ((plain, 0.82), (loaded, 0.7)):
@@ -125,20 +123,16 @@ def test_the_losses_have_a_friction_of_their_own() -> None:
 
 
 def test_the_scuffing_temperature_is_a_property_of_oil_and_steel() -> None:
-    """The scuffing temperature does not depend on the oil temperature, because X_L is taken at the 90 C of the test.
-
-    With X_L at the oil temperature, the scuffing temperature rose from 329 C (oil at 40 C) to 353 C (oil at 80 C).
-    """
+    """The scuffing temperature does not depend on the oil temperature, because X_L is taken at the 90 C of the test."""
+    # With X_L at the oil temperature, the scuffing temperature rose from 329 C (oil at 40 C) to 353 C (oil at 80 C).
     limits = [solved(SCUFFING, STAGE, {"temperatures.oil_c": oil})["safety"]["scuffing_c"] for oil in (40, 60, 80)]
     assert limits == [pytest.approx(357.99, abs=0.01)] * 3
 
 
 def test_a_hotter_oil_is_never_safer() -> None:
-    """With an estimated bulk temperature, a hotter oil lowers the safety factor.
-
-    If the bulk temperature is fixed at 86.85 C, the safety factor with oil at 80 C is about twice as large as with oil
-    at 40 C.
-    """
+    """With an estimated bulk temperature, a hotter oil lowers the safety factor."""
+    # If the bulk temperature is fixed at 86.85 C, the safety factor with oil at 80 C is about twice as large as with
+    # oil at 40 C.
     oils = (40, 60, 80)
     safe = [solved(SCUFFING, STAGE, {"temperatures.oil_c": oil})["safety"]["blok_factor"] for oil in oils]
     assert safe == [pytest.approx(value, abs=0.01) for value in (14.37, 12.78, 11.45)]
@@ -215,10 +209,8 @@ def test_misalignment_raises_the_coefficient_of_friction_by_the_face_load_factor
 
 
 def test_no_mean_flash_no_bulk() -> None:
-    """Without a mean flash temperature, the answer has loads, but no results that need the bulk temperature.
-
-    Here the loaded path reaches the base circle of the pinion with 12 teeth.
-    """
+    """Without a mean flash temperature, the answer has loads, but no results that need the bulk temperature."""
+    # Here the loaded path reaches the base circle of the pinion with 12 teeth.
     gears = {
         "pinion": {"teeth": 12},
         "wheel": {"teeth": 60},
@@ -272,10 +264,8 @@ def test_a_unit_without_oil_has_no_verdict() -> None:
 
 @pytest.mark.parametrize(("torque", "factor"), [(6.0, 0.25**0.25), (48.0, 1.0)])
 def test_standard_stiffness_of_light_loads_falls_with_their_fourth_root(torque: float, factor: float) -> None:
-    """The standard stiffness c' grows with the fourth root of the line load up to 100 N/mm, then it is constant.
-
-    A torque of 6 N m on the spur pinion (m 4, 20 teeth, 6 mm wide) gives 150 N, which is 25 N/mm.
-    """
+    """The standard stiffness c' grows with the fourth root of the line load up to 100 N/mm, then it is constant."""
+    # A torque of 6 N m on the spur pinion (m 4, 20 teeth, 6 mm wide) gives 150 N, which is 25 N/mm.
     pair = {"pinion": {"teeth": 20}, "wheel": {"teeth": 40}, "module_mm": 4, "face_width_mm": 6}
     light, full = (
         solved(
@@ -334,10 +324,8 @@ def test_a_unit_s_estimates_are_made_for_steel_too() -> None:
 
 
 def test_the_lubricant_factor_of_the_test_is_listed_with_its_value() -> None:
-    """At 90 C, VG 220 has 25.6 mm2/s and 837 kg/m3, hence 21.4 mPa s and X_L = 0.858.
-
-    The scuffing temperature is then 80 + 2.25 X_L 144 = 358.0 C.
-    """
+    """At 90 C, VG 220 has 25.6 mm2/s and 837 kg/m3, hence 21.4 mPa s and X_L = 0.858."""
+    # The scuffing temperature is then 80 + 2.25 X_L 144 = 358.0 C.
     path = "temperatures.scuffing_test.lubricant_factor"
     answer = solved(SCUFFING, STAGE, {"temperatures.oil_c": 40})
     told = next(each for each in answer["assumptions"] if each["field"] == path)
@@ -353,10 +341,8 @@ def test_the_lubricant_factor_of_the_test_is_listed_with_its_value() -> None:
 
 
 def test_a_section_under_the_teeth_takes_the_diameter_that_carries_torsion() -> None:
-    """The section has the reference diameter less 1.25 modules: 231.29 mm.
-
-    The reference diameter for 39 teeth, m_n 6 mm and 11.5 degrees is 238.79 mm.
-    """
+    """The section has the reference diameter less 1.25 modules: 231.29 mm."""
+    # The reference diameter for 39 teeth, m_n 6 mm and 11.5 degrees is 238.79 mm.
     path = "pinion_shaft.sections.3.outer_diameter_mm"
     by_rule = solved(TRAIN, TURBO, {path: GONE})
     told = {each["field"]: each for each in by_rule["assumptions"]}[path]

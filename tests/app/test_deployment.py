@@ -87,11 +87,9 @@ llvm.get_host_cpu_features = lambda: llvm.FeatureMap(sse2=True)
 
 @pytest.mark.slow
 def test_the_image_has_its_kernels_on_another_processor(tmp_path: Path) -> None:
-    """The kernels that the build steps of the image compile also run on another processor.
-
-    The test compiles the kernels of couplings only. A process that is told that it runs on another type of processor
-    answers a request and leaves these kernels unchanged.
-    """
+    """The kernels that the build steps of the image compile also run on another processor."""
+    # The test compiles the kernels of couplings only. A process that is told that it runs on another type of processor
+    # answers a request and leaves these kernels unchanged.
     source, prefix, elsewhere = tmp_path / "src", tmp_path / "prefix", tmp_path / "elsewhere"
     listed = subprocess.run(["git", "ls-files"], cwd=ROOT, check=True, capture_output=True, text=True)  # noqa: S607
     left_out = (ROOT / ".dockerignore").read_text().split()

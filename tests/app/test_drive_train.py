@@ -33,10 +33,8 @@ WORKED = {
 
 
 def request(changes: Mapping[str, Any] = {}, name: str = TURBO) -> dict[str, Any]:
-    """Return the request of an example with `detail` "summary" and with changes at dotted paths.
-
-    The turbo gears, hot and cold, also get the values of the worked example.
-    """
+    """Return the request of an example with `detail` "summary" and with changes at dotted paths."""
+    # The turbo gears, hot and cold, also get the values of the worked example.
     return example(name, {"detail": "summary", **({} if name == GENERATOR else WORKED), **changes})
 
 
@@ -80,10 +78,8 @@ def test_teeth_yield_before_they_slide_by_default(post: Post) -> None:
 
 @pytest.mark.slow
 def test_the_film_is_asked_by_default(post: Post) -> None:
-    """The safety factor by thermal EHL is that of the hottest place, a point of the profile line.
-
-    With equidistant points only, this factor is 3.0844 (50 points) or 3.0814 (201 points).
-    """
+    """The safety factor by thermal EHL is that of the hottest place, a point of the profile line."""
+    # With equidistant points only, this factor is 3.0844 (50 points) or 3.0814 (201 points).
     safety = answered(post, {"model": {"bearing_film": "short"}})["safety"]
     assert safety["thermal_ehl_profile"] == pytest.approx(3.081, abs=0.001)
     assert safety["minimum"] == safety["blok_flank"]
@@ -403,19 +399,15 @@ def test_bad_values_are_named(post: Post, name: str, value: object) -> None:
 
 
 def test_the_softest_bearing_of_all_is_answered(post: Post) -> None:
-    """A bearing stiffness of 1 N/um is permitted.
-
-    The effect of the shafts is off, because under this load the shaft would leave its coupling.
-    """
+    """A bearing stiffness of 1 N/um is permitted."""
+    # The effect of the shafts is off, because under this load the shaft would leave its coupling.
     answered(post, {"effects.shafts": False, **linear([[1, -0.5], [0.5, 1]])})
 
 
 @pytest.mark.parametrize("method", ["given", "estimated"])
 def test_the_limit_may_come_from_a_scuffing_test_and_the_bulk_from_the_supply(post: Post, method: str) -> None:
-    """Without effects of shafts and heat, the scuffing and bulk temperatures are those of /v1/scuffing.
-
-    The safety factor at the feature line follows from these temperatures.
-    """
+    """Without effects of shafts and heat, the scuffing and bulk temperatures are those of /v1/scuffing."""
+    # The safety factor at the feature line follows from these temperatures.
     given = {"bulk_method": "given", "bulk_c": 80} if method == "given" else {"bulk_method": method}
     scuffing_test = {"fzg_stage": 9, "lubricant_factor": 0.9}
     temperatures = {"oil_c": 50, **given, "oil_supply": "dip", "scuffing_test": scuffing_test}
@@ -470,10 +462,8 @@ def test_friction_by_the_oil_replaces_the_coefficient(post: Post) -> None:
 
 
 def test_a_collar_takes_the_thrust_that_is_reported(post: Post) -> None:
-    """The collar takes the thrust of mesh and coupling.
-
-    The friction in the coupling follows the friction law at the tilt of the solution, not at a tiny tilt.
-    """
+    """The collar takes the thrust of mesh and coupling."""
+    # The friction in the coupling follows the friction law at the tilt of the solution, not at a tiny tilt.
     by_law = {"couplings.0.friction": GONE, "couplings.0.thrust_fraction": 1}
     found = answered(post, {"thrust_collar": {"radius_mm": 128}, **by_law})
     assert found["load"]["face_load_factor"] == pytest.approx(1.671, abs=0.0006)
@@ -487,10 +477,8 @@ def test_a_collar_takes_the_thrust_that_is_reported(post: Post) -> None:
 
 
 def test_spur_gears_have_no_hand(post: Post) -> None:
-    """K_Hbeta of the spur gears is 1.463 for either hand.
-
-    The pinion turns counter-clockwise, so the face begins at the end with the larger Z.
-    """
+    """K_Hbeta of the spur gears is 1.463 for either hand."""
+    # The pinion turns counter-clockwise, so the face begins at the end with the larger Z.
     spur = {"gears.helix_angle_deg": 0, "detail": "curves"}
     right, left = (answered(post, {**spur, "gears.hand": hand}) for hand in ("right", "left"))
     assert {**left, "inputs": None, "case": None} == {**right, "inputs": None, "case": None}
@@ -507,10 +495,8 @@ def test_the_sleeve_weighs_on_the_hub(post: Post) -> None:
 
 
 def test_the_feature_line_s_maximum_is_that_of_any_number_of_points(post: Post) -> None:
-    """The safety factor at the feature line does not depend on the number of points.
-
-    In an earlier version this factor was 2.442, 1.888 and 1.882 with 2, 50 and 500 points.
-    """
+    """The safety factor at the feature line does not depend on the number of points."""
+    # In an earlier version this factor was 2.442, 1.888 and 1.882 with 2, 50 and 500 points.
     model = {"model.lubrication": "closed_form"}
     found = [answered(post, {**model, "model.path_points": points}) for points in (2, 50, 500)]
     for answer in found:
@@ -559,10 +545,8 @@ def test_the_example_has_no_unusual_value(post: Post) -> None:
 
 
 def test_losses_beyond_the_power_leave_no_efficiency(post: Post) -> None:
-    """If the losses exceed the power, the answer has no efficiency.
-
-    In an earlier version, the unit for 12 MW had an efficiency of -0.19 at 100 kW and of -118 at 1 kW.
-    """
+    """If the losses exceed the power, the answer has no efficiency."""
+    # In an earlier version, the unit for 12 MW had an efficiency of -0.19 at 100 kW and of -118 at 1 kW.
     for power, losses in ((100, 119.5), (1, 119.2)):
         found = answered(post, {"operation.power_kw": power})
         assert found["losses"]["efficiency"] is None
@@ -576,10 +560,8 @@ HARD_UNITS: dict[str, dict[str, Any]] = json.loads(Path(__file__).with_name("har
 
 @pytest.mark.parametrize("name", first(3, HARD_UNITS))
 def test_units_that_had_no_solution_have_one(post: Post, name: str) -> None:
-    """In an earlier version, 2,500 random units were tried, and these units had no solution.
-
-    The reasons were friction that falls with sliding, hubs that stick, and too large steps.
-    """
+    """In an earlier version, 2,500 random units were tried, and these units had no solution."""
+    # The reasons were friction that falls with sliding, hubs that stick, and too large steps.
     found = accepted(post(PATH, {**HARD_UNITS[name]["request"], "detail": "summary"}))
     assert found["status"] != "no_solution"
     assert found["load"]["face_load_factor"] == pytest.approx(HARD_UNITS[name]["face_load_factor"], rel=1e-5)
@@ -597,10 +579,8 @@ def test_torque_may_enter_at_the_very_end_of_a_shaft(post: Post) -> None:
 
 
 def test_the_cold_unit_s_contact_is_cold(post: Post) -> None:
-    """If no bulk temperature is given, the teeth of the cold unit have 20 C: the safety factor is 5.98.
-
-    In an earlier version, they had the mean temperature of the hot teeth, and the safety factor was 1.77.
-    """
+    """If no bulk temperature is given, the teeth of the cold unit have 20 C: the safety factor is 5.98."""
+    # In an earlier version, they had the mean temperature of the hot teeth, and the safety factor was 1.77.
     given = answered(post, {"states": BOTH})
     assert given["derived"]["temperatures"]["bulk_c"] == pytest.approx(95)
     assert given["states"]["cold"]["derived"]["temperatures"]["bulk_c"] == pytest.approx(95)

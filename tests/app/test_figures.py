@@ -131,10 +131,8 @@ def figures(name: str) -> Iterator[tuple[str, Figure]]:
 
 
 def numbers(model: Documented, unit: str | None = None) -> Iterator[tuple[str | None, Any]]:
-    """Yield all numbers and arrays of an answer, each with the symbol of its unit.
-
-    A member without a unit of its own has the unit of its group.
-    """
+    """Yield all numbers and arrays of an answer, each with the symbol of its unit."""
+    # A member without a unit of its own has the unit of its group.
     for member in members(type(model)):
         value, own = getattr(model, member.name), member.unit.symbol if member.unit else unit
         items = value if isinstance(value, list) else [value]
@@ -315,11 +313,9 @@ def test_choking_scan_repeats_the_pumping_endpoint_and_crosses_its_limits_at_the
 
 @pytest.mark.ci
 def test_the_curve_of_choking_bends_where_gas_reaches_an_end_supersonic() -> None:
-    """Above the bend, gas reaches an end of the face at supersonic speed.
-
-    Above the bend, the Mach number of an expansion to ambient pressure rises less than half as fast with the speed of
-    the pinion as below the bend.
-    """
+    """Above the bend, gas reaches an end of the face at supersonic speed."""
+    # Above the bend, the Mach number of an expansion to ambient pressure rises less than half as fast with the speed of
+    # the pinion as below the bend.
     request, _ = solved("starter-choking-speed")
     assert "bend" in figure("starter-choking-speed", "choking").finding
     mesh = prepare(request.inputs().setup)
@@ -331,10 +327,8 @@ def test_the_curve_of_choking_bends_where_gas_reaches_an_end_supersonic() -> Non
 
 
 def partly_unsolved() -> tuple[Any, Any]:
-    """Return a request, and an answer whose thermal path has two unsolved and two warned points.
-
-    A single solved point lies between the unsolved points.
-    """
+    """Return a request, and an answer whose thermal path has two unsolved and two warned points."""
+    # A single solved point lies between the unsolved points.
     request, answer = solved("xue-pair-1-scuffing")
     count = len(answer.path.psi)
     status = ["ok"] * count

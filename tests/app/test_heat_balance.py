@@ -126,10 +126,8 @@ def test_the_estimate_keeps_its_warning_and_its_numbers() -> None:
 
 
 def test_the_worked_pair() -> None:
-    """With the mesh loss of the worked example, the temperatures agree within 0.1 K.
-
-    The conductances to the oil agree within 3 W/K.
-    """
+    """With the mesh loss of the worked example, the temperatures agree within 0.1 K."""
+    # The conductances to the oil agree within 3 W/K.
     oil = {
         "viscosity_pa_s": 0.0095,
         "reference_temperature_c": 86.85,
@@ -521,10 +519,8 @@ def started(changes: Mapping[str, Any] = MappingProxyType({})) -> dict[str, Any]
 
 
 def test_a_unit_that_starts_from_cold() -> None:
-    """A warm-up begins at 20 C and ends at the temperatures of the running unit.
-
-    The pinion warms up faster than the wheel. Their bodies differ most after 2 to 3 minutes.
-    """
+    """A warm-up begins at 20 C and ends at the temperatures of the running unit."""
+    # The pinion warms up faster than the wheel. Their bodies differ most after 2 to 3 minutes.
     found, running = started(), unit({"cooling.casing": {"area_m2": 8, "mass_kg": 2500}})
     warm = found["warm_up"]
     final = dict(zip(warm["nodes"], warm["final_c"], strict=True))
@@ -549,10 +545,8 @@ def test_a_unit_that_starts_from_cold() -> None:
 
 
 def test_the_worked_warm_up() -> None:
-    """A start at 50 C: the pinion reaches 95 % of its warm-up after 280 to 340 s, and the wheel after 770 to 840 s.
-
-    A start at 20 C: the body temperatures of pinion and wheel differ most after 153 s, by 19.7 K.
-    """
+    """A start at 50 C: the pinion reaches 95 % of its warm-up after 280 to 340 s, and the wheel after 770 to 840 s."""
+    # A start at 20 C: the body temperatures of pinion and wheel differ most after 153 s, by 19.7 K.
     plain = {
         "cooling.casing": GONE,
         "cooling.gear_flow_l_per_min": 140.08,

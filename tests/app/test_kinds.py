@@ -51,10 +51,8 @@ def of_the_oil(use: str, found: dict[str, Any]) -> dict[str, Any]:
 @pytest.mark.parametrize("sheet", SHEETS)
 @pytest.mark.parametrize("use", USES)
 def test_every_default_by_the_kind_of_oil_differs_from_a_mineral_oil_s(use: str, sheet: str) -> None:
-    """The default properties of a synthetic oil differ from those of a mineral oil.
-
-    The specific heat differs for polyalphaolefins only.
-    """
+    """The default properties of a synthetic oil differ from those of a mineral oil."""
+    # The specific heat differs for polyalphaolefins only.
     path = USES[use][2]
     mineral = assumed(answer(use, {**SHEETS[sheet], "kind": "mineral"}), "kind of oil", path)
     assert len(mineral) >= 2
@@ -126,10 +124,8 @@ def test_every_default_by_the_material_follows_it(modulus: float) -> None:
 
 
 def test_the_bulk_has_the_share_of_its_lubrication() -> None:
-    """The bulk is hotter than the oil by a share of the mean flash temperature.
-
-    The lubrication multiplies this share by 1.2 (spray, the default), 1 (dip) or 0.2 (submerged gears).
-    """
+    """The bulk is hotter than the oil by a share of the mean flash temperature."""
+    # The lubrication multiplies this share by 1.2 (spray, the default), 1 (dip) or 0.2 (submerged gears).
     bulk = {
         supply: solved(SCUFFING, STAGE, {"temperatures.oil_supply": supply})["contact_temperature"]["bulk_c"]
         for supply in OIL_SUPPLY_FACTOR

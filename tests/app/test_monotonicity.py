@@ -21,10 +21,8 @@ ROUNDING = 1e-6
 
 
 def industrial(seed: int) -> dict[str, Any]:
-    """Return the request for a random gear stage of industrial size.
-
-    The pitch-line velocity is 3 to 35 m/s. The tooth force is 25 to 60 N per mm of face and mm of module.
-    """
+    """Return the request for a random gear stage of industrial size."""
+    # The pitch-line velocity is 3 to 35 m/s. The tooth force is 25 to 60 N per mm of face and mm of module.
     rng = np.random.default_rng([22, seed])
     teeth, module = int(rng.integers(18, 36)), float(rng.choice((2, 3, 4, 5, 6, 8, 10)))
     helix, width = float(rng.choice((0, 8, 10, 12, 15, 20))), float(rng.uniform(8, 14)) * module
@@ -71,11 +69,9 @@ def answers(body: dict[str, Any], path: str, *values: Any, endpoint: str = SCUFF
 
 
 def check_oil_temperature(body: dict[str, Any]) -> None:
-    """Check that the safety factor by Blok does not rise if the oil is 15 K hotter.
-
-    The safety factor by thermal EHL may rise by up to 5 %: the film is full, and its friction falls as the film thins.
-    The answer then says so.
-    """
+    """Check that the safety factor by Blok does not rise if the oil is 15 K hotter."""
+    # The safety factor by thermal EHL may rise by up to 5 %: the film is full, and its friction falls as the film
+    # thins. The answer then says so.
     oil = body["temperatures"]["oil_c"]
     cool, hot = answers(body, "temperatures.oil_c", oil, oil + 15)
     assert hot["safety"]["blok_factor"] <= cool["safety"]["blok_factor"] * (1 + ROUNDING)
@@ -104,10 +100,8 @@ def check_viscosity(body: dict[str, Any], film: str) -> None:
 
 
 def check_misalignment(body: dict[str, Any]) -> None:
-    """Check that the face load factor does not fall if the helix slope grows, for both signs.
-
-    The pair has no modifications other than the helix slope.
-    """
+    """Check that the face load factor does not fall if the helix slope grows, for both signs."""
+    # The pair has no modifications other than the helix slope.
     uniform = {name: body[name] for name in ("gears", "load")}
     for sign in (-1.0, 1.0):
         slopes = (0.0, sign * 5.0, sign * 15.0, sign * 40.0)

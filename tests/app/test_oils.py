@@ -43,10 +43,8 @@ def outcome(use: str, oil: dict[str, Any], temperatures: list[float]) -> Unproce
 
 @pytest.mark.parametrize("use", USES)
 def test_an_oil_whose_index_none_has_is_refused_at_its_field(use: str) -> None:
-    """Viscosities of 5000 mm2/s at 40 C and 1 mm2/s at 100 C correspond to an index of -10^6.
-
-    At -50 C, Walther's law would overflow for this oil.
-    """
+    """Viscosities of 5000 mm2/s at 40 C and 1 mm2/s at 100 C correspond to an index of -10^6."""
+    # At -50 C, Walther's law would overflow for this oil.
     refusal = outcome(use, WAX, [-50.0] * len(USES[use][3]))
     assert isinstance(refusal, Unprocessable)
     assert (refusal.code, refusal.path) == ("viscosity_index", f"{USES[use][2]}.kinematic_viscosity_100_mm2_per_s")
@@ -54,10 +52,8 @@ def test_an_oil_whose_index_none_has_is_refused_at_its_field(use: str) -> None:
 
 @pytest.mark.parametrize("use", USES)
 def test_an_oil_too_cold_to_flow_is_refused_at_its_field(use: str) -> None:
-    """VG 680 has 10^8 mm2/s at -45 C.
-
-    In an earlier version, VG 680 at -50 C gave a coupling a capacity of 8.9e7 N without a warning.
-    """
+    """VG 680 has 10^8 mm2/s at -45 C."""
+    # In an earlier version, VG 680 at -50 C gave a coupling a capacity of 8.9e7 N without a warning.
     refusal = outcome(use, {"iso_vg": 680}, [-45.0] * len(USES[use][3]))
     assert isinstance(refusal, Unprocessable)
     assert (refusal.code, refusal.path) == ("oil_too_thick", f"{USES[use][2]}.iso_vg")

@@ -606,10 +606,8 @@ def test_assets_are_kept_by_browsers(client: httpx.Client) -> None:
 
 @pytest.mark.usefixtures("without_images")
 def test_a_report_tells_every_input_of_every_item() -> None:
-    """A table of the report shows at most four sections of a shaft side by side.
-
-    A stiffness matrix is printed row by row. Only the text of the link is shortened, not its address.
-    """
+    """A table of the report shows at most four sections of a shaft side by side."""
+    # A stiffness matrix is printed row by row. Only the text of the link is shortened, not its address.
     example = "starter-generator-gear-drive-train"
     html = views.report(asked(example), "http://host").content.decode()
     request = examples()[example].request

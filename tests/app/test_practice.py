@@ -67,10 +67,8 @@ def fzg(stage: int) -> dict[str, Any]:
 def test_fzg_type_a_at_its_own_failing_stage_stands_at_the_limit(
     stage: int, margin: float, safety: float, friction: float, bulk: float, flash: float
 ) -> None:
-    """The FZG test defines a safety factor of 1 at the failing stage.
-
-    The other expected numbers follow from the rules of the standard.
-    """
+    """The FZG test defines a safety factor of 1 at the failing stage."""
+    # The other expected numbers follow from the rules of the standard.
     result = solved("/v1/scuffing", fzg(stage), {})
     assert result["safety"]["blok_factor"] == pytest.approx(1.0, abs=margin)
     assert result["safety"]["blok_factor"] == pytest.approx(safety, rel=0.07)
@@ -371,10 +369,8 @@ HELICAL = {"gears.helix_angle_deg": 15, "gears.wheel.profile_shift": -0.1, "gear
 @pytest.mark.parametrize("plane", ["normal", "transverse"])
 @pytest.mark.parametrize("endpoint", [LOAD_DISTRIBUTION, "/v1/pumping"])
 def test_a_tip_diameter_is_the_addendum_of_the_drawing(endpoint: str, plane: str) -> None:
-    """The geometry is the same if the tip diameter is given instead of the addendum.
-
-    The tip and root diameters of the wheel follow from addendum, dedendum and profile shift, as on a drawing.
-    """
+    """The geometry is the same if the tip diameter is given instead of the addendum."""
+    # The tip and root diameters of the wheel follow from addendum, dedendum and profile shift, as on a drawing.
     body, plain = BODIES[endpoint], {**HELICAL, "gears.module_plane": plane}
     by_addendum = solved(endpoint, body, plain)
     tip = by_addendum["geometry"]["wheel_tip_diameter_mm"]

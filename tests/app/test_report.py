@@ -59,10 +59,8 @@ def test_inputs_say_the_value_used_and_where_it_comes_from() -> None:
 
 @pytest.mark.parametrize("name", SHORT[:3])
 def test_no_input_is_dropped(name: str) -> None:
-    """The report names every input.
-
-    Given, assumed and derived inputs stand in tables, and the other inputs stand in a text.
-    """
+    """The report names every input."""
+    # Given, assumed and derived inputs stand in tables, and the other inputs stand in a text.
     case = asked(name)
     part = report(name)
     part = part[part.index("<h2>Inputs") : part.index("<h2>Assumptions")]
@@ -86,10 +84,8 @@ def test_only_what_was_given_is_said_to_be_given(name: str) -> None:
 
 
 def test_a_report_can_be_signed() -> None:
-    """Each name is followed by two empty lines, for the date and the signature.
-
-    The report names the REXS file of the gear unit and the SHA-256 of this file.
-    """
+    """Each name is followed by two empty lines, for the date and the signature."""
+    # The report names the REXS file of the gear unit and the SHA-256 of this file.
     names = {"author": "A. Miller", "checker": "B. Smith", "approver": "C. Jones", "revision": "B"}
     file = {"rexs_file": "unit.rexs", "rexs_sha256": "ab" * 32, "rexs_stage": "5"}
     html = views.report(asked("pahl-axial-displacement", **names, **file), "").content.decode()
@@ -127,10 +123,8 @@ def test_groups_repeat_their_heading_and_name_their_parts() -> None:
 
 
 def test_the_page_writes_results_back_into_the_file() -> None:
-    """The page of a case from a REXS file has a form that sends the request of the case.
-
-    The page of a case that was not read from a file has no such form.
-    """
+    """The page of a case from a REXS file has a form that sends the request of the case."""
+    # The page of a case that was not read from a file has no such form.
     file = {"rexs_sha256": "ab" * 32, "rexs_stage": "5"}
     case = replace(asked(SCUFFING, **file), pairs=[*asked(SCUFFING).pairs, ("model.lubrication", "closed_form")])
     html = views.page(case).content.decode()

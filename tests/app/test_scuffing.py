@@ -147,11 +147,9 @@ def test_impossible_gears_and_contradictions_are_named(
     [("closed_form", 10), ("closed_form", 50), ("closed_form", 100), ("closed_form", 500), ("thermal_ehl", 10)],
 )
 def test_a_path_that_reaches_a_base_circle_has_no_verdict(post: Post, lubrication: str, points: int) -> None:
-    """With 12 and 60 teeth, the path of contact reaches a base circle, where the pressure has no value.
-
-    An earlier version of the service answered 154,550 MPa, and Blok safety factors of 3.8, 2.4, 2.1 and 1.4 with 10,
-    50, 100 and 500 points of the path.
-    """
+    """With 12 and 60 teeth, the path of contact reaches a base circle, where the pressure has no value."""
+    # An earlier version of the service answered 154,550 MPa, and Blok safety factors of 3.8, 2.4, 2.1 and 1.4 with 10,
+    # 50, 100 and 500 points of the path.
     rack = {"module_mm": 2, "helix_angle_deg": 15, "face_width_mm": 20}
     body = {
         "gears": {"pinion": {"teeth": 12}, "wheel": {"teeth": 60}, **rack},

@@ -138,10 +138,8 @@ def test_controls_of_a_study_are_read_as_fields_are(client: httpx.Client) -> Non
 
 @pytest.mark.parametrize("name", study_bodies("/v1/spectrum"))
 def test_ready_studies_are_those_of_the_interface(name: str) -> None:
-    """The page of an example from the API has the cases, tolerances and limits of the example.
-
-    The number of machines is the default of the page: 8 replicates of 32 machines.
-    """
+    """The page of an example from the API has the cases, tolerances and limits of the example."""
+    # The number of machines is the default of the page: 8 replicates of 32 machines.
     body = study_bodies("/v1/spectrum")[name]["value"]
     calculation = BY_PATH[body["endpoint"]]
     question = asked_by(address_of(calculation, pairs_of(body["request"]), body))
@@ -160,10 +158,8 @@ def test_ready_studies_are_those_of_the_interface(name: str) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("name", study_bodies("/v1/spectrum"))
 def test_customers_read_where_a_limit_comes_from(client: httpx.Client, name: str) -> None:
-    """For gears, the page and the report cite a secondary source for the deviation of the scuffing temperature.
-
-    For the coupling, the deviation of the limit is given.
-    """
+    """For gears, the page and the report cite a secondary source for the deviation of the scuffing temperature."""
+    # For the coupling, the deviation of the limit is given.
     body = study_bodies("/v1/spectrum")[name]["value"]
     address = address_of(BY_PATH[body["endpoint"]], pairs_of(body["request"]), body) + "&machines=8"
     page = client.get(address)
@@ -211,10 +207,8 @@ def test_no_name_of_a_case_is_a_formula_in_a_spreadsheet() -> None:
 
 @pytest.mark.ci
 def test_a_probability_that_nobody_knows_is_no_number() -> None:
-    """The limit is so far away that the computed probability has no meaning.
-
-    The page states a probability below 0.001 % instead, and has no figure of the probability.
-    """
+    """The limit is so far away that the computed probability has no meaning."""
+    # The page states a probability below 0.001 % instead, and has no figure of the probability.
     lines, page = studied(checked(SpectrumPage, asked(COUPLING, **{**SAID, "limit": "20000"})))
     (limit,) = lines[-1]["limits"]
     assert 0.0 < limit["probability"] < 1e-9
@@ -312,10 +306,8 @@ class Inline:
 
 
 def parts_of_report(study: StudyPage, lines: list[dict[str, Any]]) -> list[str]:
-    """Return the parts of the document with the report, in the order in which they are sent.
-
-    The lines of the study arrive every 0.31 s. Parts about the progress are sent at most every 0.3 s.
-    """
+    """Return the parts of the document with the report, in the order in which they are sent."""
+    # The lines of the study arrive every 0.31 s. Parts about the progress are sent at most every 0.3 s.
     clock = Clock(study.study.total)
 
     async def arriving() -> AsyncGenerator[list[dict[str, Any]], None]:

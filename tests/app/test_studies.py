@@ -182,10 +182,8 @@ def test_examples_of_spectra(post: Post, name: str) -> None:
 
 
 def test_corners_on_the_workers(post: Post) -> None:
-    """A study of corners omits the thermal film if no output needs the film.
-
-    The outputs are nevertheless those of a single request with the film.
-    """
+    """A study of corners omits the thermal film if no output needs the film."""
+    # The outputs are nevertheless those of a single request with the film.
     ranges = [{"path": "thermal.wall_response", "values": [0.3, 1.0]}]
     outputs = ["load.face_load_factor", "safety.blok_flank"]
     body = {**UNIT.request, "model": {"lubrication": "thermal_ehl", "path_points": 3}}

@@ -108,10 +108,8 @@ def test_the_crowning_that_forgives_is_a_map_of_17_by_11() -> None:
 @pytest.mark.parametrize("calculation", CALCULATIONS, ids=lambda each: each.path)
 @pytest.mark.ci
 def test_numbers_are_varied_and_outputs_shown_by_their_names_alone(calculation: Calculation) -> None:
-    """The name of a number is enough to vary this number, and the name of an output is enough to show this output.
-
-    If the case has no value of the number, the service may ask for a range.
-    """
+    """The name of a number is enough to vary this number, and the name of an output is enough to show this output."""
+    # If the case has no value of the number, the service may ask for a range.
     found = asked(next(each.name for each in examples().values() if each.endpoint == calculation.path))
     choices = [choice.path for choice in field_choices(calculation, found.case, texts=False)]
     unused = found.calculation.request.model_validate(found.body).unused()

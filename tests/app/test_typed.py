@@ -201,10 +201,8 @@ def _is_number(text: str) -> bool:
 @pytest.mark.parametrize("name", FIRST.values(), ids=FIRST)
 @pytest.mark.ci
 def test_every_number_that_a_page_prints_may_be_typed_into_its_form(name: str) -> None:
-    """If a number of a page is typed into the form of this page, the form reads the same number or asks back.
-
-    The numbers stand in tables, headlines and placeholders.
-    """
+    """If a number of a page is typed into the form of this page, the form reads the same number or asks back."""
+    # The numbers stand in tables, headlines and placeholders.
     html = html_of(asked(name))
     printed = re.findall(r'data-path="[^"]+">([^<]*)<', html) + re.findall(
         r'class="number"[^>]*placeholder="([^"]*)"', html
@@ -277,10 +275,8 @@ def test_two_values_may_have_decimal_commas(client: httpx.Client) -> None:
 
 
 def test_only_what_is_refused_is_asked_back() -> None:
-    """In a link, the comma in 100,200 separates two values of a list.
-
-    The page therefore does not ask what this text means, even if it asks to correct another field.
-    """
+    """In a link, the comma in 100,200 separates two values of a list."""
+    # The page therefore does not ask what this text means, even if it asks to correct another field.
     pairs = [("coupling.pitch_errors_um", "100,200"), (TORQUE, "x")]
     html = html_of(Asked("/coupling", pairs), 422)
     assert "may mean" not in html

@@ -127,10 +127,8 @@ def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> 
 
 @pytest.mark.ci
 def test_the_sheet_names_the_end_where_material_is_removed() -> None:
-    """The lead chart is lowest at the end that the grinding sheet names, for both signs of the helix slope.
-
-    The other end of the chart is higher by the slope of 30 um.
-    """
+    """The lead chart is lowest at the end that the grinding sheet names, for both signs of the helix slope."""
+    # The other end of the chart is higher by the slope of 30 um.
     study, lines, _ = studied(DesignPage)
     for slope in (30.0, -30.0):
         end = {**lines[-1], "rounded": {**lines[-1]["rounded"], "at": {**lines[-1]["rounded"]["at"], SLOPE: slope}}}

@@ -225,10 +225,8 @@ def test_a_call_does_not_wait_for_the_start_of_a_worker_if_another_worker_is_fre
 
 
 def test_idle_workers_are_checked_all_at_the_same_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    """If idle workers were checked one after another, AnyIO would give all checks to the same worker.
-
-    AnyIO would then end the other worker.
-    """
+    """If idle workers were checked one after another, AnyIO would give all checks to the same worker."""
+    # AnyIO would then end the other worker.
 
     async def check(pool: Pool, processes: Processes) -> None:
         await asyncio.sleep(0.5)

@@ -75,10 +75,8 @@ def test_the_table_has_the_fields_of_the_openapi_document() -> None:
 
 
 def test_ten_drawn_fields_lead_to_the_line_that_declares_them() -> None:
-    """A row names a module, a class and an attribute of the solvers.
-
-    The source of this module declares this attribute in this class.
-    """
+    """A row names a module, a class and an attribute of the solvers."""
+    # The source of this module declares this attribute in this class.
     declared = [each for each in entries() if each.section in {"Requests", "Answers"} and each.cells[9]]
     for entry in random.Random(42).sample(declared, 10):
         module, kind, name = entry.cells[9].strip("`").rsplit(".", 2)

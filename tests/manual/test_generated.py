@@ -70,10 +70,8 @@ def comparison(model: str) -> str:
 
 
 def _compared(row: Row) -> tuple[str, ...]:
-    """Return one row of the comparison.
-
-    A computed number below 1e-9 is written as zero. A deviation that is rounded to zero has no sign.
-    """
+    """Return one row of the comparison."""
+    # A computed number below 1e-9 is written as zero. A deviation that is rounded to zero has no sign.
     outcome = "holds" if row.holds else "does not hold"
     deviation = outcome if row.deviation is None else f"{100 * row.deviation:+.1f} %"
     deviation = deviation.replace("-0.0", "0.0").replace("+0.0", "0.0")

@@ -66,10 +66,9 @@ def test_every_function_that_cites_an_equation_is_named_below_it() -> None:
 
 
 def test_every_equation_of_ours_is_implemented() -> None:
-    """Every equation of our own names a function that implements the equation.
-
-    An equation from a paper needs no function: the manual prints some of these equations only in order to correct them.
-    """
+    """Every equation of our own names a function that implements the equation."""
+    # An equation from a paper needs no function: the manual prints some of these equations only in order to correct
+    # them.
     assert [number for number, equation in equations().items() if " " not in number and not equation.functions] == []
 
 
@@ -91,10 +90,8 @@ def test_figures_are_there(name: str) -> None:
 
 
 def test_every_model_shows_where_it_fails() -> None:
-    """The section "Limits of validity" of every model with its own endpoint shows the picture of a study.
-
-    The pictures in the chapters, the picture files and the studies that the service shows have the same names.
-    """
+    """The section "Limits of validity" of every model with its own endpoint shows the picture of a study."""
+    # The pictures in the chapters, the picture files and the studies that the service shows have the same names.
     for name in set(NAMES) - {"heat-balance", "spectrum", "service", "fields"}:  # no endpoint of its own
         assert f"studies/{name}.png)" in chapters()[name].section("Limits of validity")
     names = sorted(name for each in chapters().values() for name in studies_of(each))

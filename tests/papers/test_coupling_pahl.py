@@ -54,10 +54,8 @@ def curves(model: KinematicModel = "tangential", **coupling: float) -> Kinematic
 
 
 def peak_angle(values: np.ndarray) -> float:
-    """Return the angle [rad] at which a curve is largest in the first half of a revolution.
-
-    A parabola through three points gives the angle.
-    """
+    """Return the angle [rad] at which a curve is largest in the first half of a revolution."""
+    # A parabola through three points gives the angle.
     half = values[: 2 * QUARTER]
     top = int(np.argmax(half))
     before, at, after = half[top - 1], half[top], half[top + 1]

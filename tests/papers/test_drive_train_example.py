@@ -185,11 +185,9 @@ def thermal_safety_of_fifty_points(inputs: DriveTrainInputs, result: DriveTrainR
     "row", [pytest.param(row, marks=() if row == 5 else pytest.mark.slow) for row in range(1, len(THERMAL) + 1)]
 )
 def test_safety_by_the_thermal_film(row: int) -> None:
-    """The safety factor by thermal EHL on the profile line through the hottest point agrees with the table.
-
-    The safety factor by Blok's formula is smaller. The table evaluates 50 points of the profile line. The hottest point
-    lies between these points; it lowers the safety factor by thermal EHL by at most 0.3 %.
-    """
+    """The safety factor by thermal EHL on the profile line through the hottest point agrees with the table."""
+    # The safety factor by Blok's formula is smaller. The table evaluates 50 points of the profile line. The hottest
+    # point lies between these points; it lowers the safety factor by thermal EHL by at most 0.3 %.
     inputs = changed(UNITS[row], {"mesh.lubrication": "thermal_ehl"})
     result = solve(inputs)
     found, worst = result.safety, result.safety.blok_at
@@ -262,10 +260,8 @@ def test_thrust_and_losses_of_the_corrected_unit() -> None:
 
 @pytest.mark.parametrize(("above", "size"), [(60e-6, 0.69), (40e-6, 0.40), (20e-6, 0.12)])
 def test_a_well_aligned_hub_sticks(above: float, size: float) -> None:
-    """A hub exerts less than its full friction moment if the machine stands close to the running axis of the hub.
-
-    At 60, 40 and 20 um above this axis, the moment is 0.69, 0.40 and 0.12 of the moment of full sliding.
-    """
+    """A hub exerts less than its full friction moment if the machine stands close to the running axis of the hub."""
+    # At 60, 40 and 20 um above this axis, the moment is 0.69, 0.40 and 0.12 of the moment of full sliding.
     unit = replace(PLAIN_UNIT, coupling_friction="elastic_plastic")
     reference = 2 / pi * 0.15 * unit.mesh.distribution.load.pinion_torque / cos(radians(20.0))
     (x, y), slope = running_axis(unit)

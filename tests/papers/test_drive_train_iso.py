@@ -28,10 +28,8 @@ DIAMETER = 17 * 8e-3 / cos(radians(15.8))
 
 
 def test_torsion_part_of_f_sh() -> None:
-    """A solid pinion with b = d twists by 4/(pi G) = 0.01607 um per N/mm of line load.
-
-    The standard's value 0.7 x 0.023 is 0.01610 um per N/mm.
-    """
+    """A solid pinion with b = d twists by 4/(pi G) = 0.01607 um per N/mm of line load."""
+    # The standard's value 0.7 x 0.023 is 0.01610 um per N/mm.
     shaft = Shaft((ShaftSection(0.1, 0.1),), (RigidBearing(0.0), RigidBearing(0.1)), torque_position=0.0)
     model = shaft_model(shaft, 0.0, np.linspace(0.0, 0.1, 41))
     force, radius = 1e5, 0.05
@@ -43,10 +41,8 @@ def test_torsion_part_of_f_sh() -> None:
 
 
 def test_tilt_part_of_f_sh() -> None:
-    """A force F at a small distance s from the middle of a solid shaft causes the slope 64/(6 pi E) F l s/d^4 there.
-
-    In the standard's formula, this slope corresponds to K' = 0.717.
-    """
+    """A force F at a small distance s from the middle of a solid shaft causes the slope 64/(6 pi E) F l s/d^4 there."""
+    # In the standard's formula, this slope corresponds to K' = 0.717.
     span, off, diameter, force = 0.6, 0.02, 0.1e-6, 1.0
     shaft = Shaft((ShaftSection(span, diameter),), (RigidBearing(0.0), RigidBearing(span)), torque_position=0.0)
     place = span / 2 + off
@@ -63,10 +59,8 @@ def test_tilt_part_of_f_sh() -> None:
 
 
 def example_1(*, torque_at_far_end: bool) -> DriveTrainInputs:
-    """Return a unit with the gears of the example, rigid bearings, an elastic pinion shaft and a rigid wheel shaft.
-
-    The pinion shaft is solid, has the reference diameter of the pinion, and is twice as long as the face.
-    """
+    """Return a unit with the gears of the example, rigid bearings, an elastic pinion shaft and a rigid wheel shaft."""
+    # The pinion shaft is solid, has the reference diameter of the pinion, and is twice as long as the face.
     pinion = Shaft(
         (ShaftSection(0.2, DIAMETER),),
         (RigidBearing(0.0), RigidBearing(0.2)),

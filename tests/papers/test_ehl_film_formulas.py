@@ -28,10 +28,8 @@ def isothermal(line_load: float, viscosity: float, oil: Lubricant) -> LineContac
 
 
 def over_moes(m: float, l: float, law: PressureViscosityLaw, viscosity: float) -> tuple[float, float]:
-    """Return the central and the minimum film of an incompressible oil, each divided by the regression of Moes.
-
-    The speed parameter U is 1e-11.
-    """
+    """Return the central and the minimum film of an incompressible oil, each divided by the regression of Moes."""
+    # The speed parameter U is 1e-11.
     speed_parameter = 1e-11
     alpha = l / (MODULUS * speed_parameter**0.25)
     oil = Lubricant(viscosity, pressure_viscosity=alpha, pressure_viscosity_law=law, compressible=False)
@@ -52,12 +50,10 @@ ROELANDS = [(2, 0), (2, 14), (20, 14), (200, 14)]
     [*((*each, "barus", THIN) for each in BARUS), *((*each, "roelands", 0.2) for each in ROELANDS)],
 )
 def test_incompressible_film_against_moes(m: float, l: float, law: PressureViscosityLaw, viscosity: float) -> None:
-    """Central and minimum film agree with the regression within 5 %, which is the accuracy of the regression.
-
-    For Barus' law, the ratios of an independent calculation are 0.993 to 1.044. Roelands' law gives a lower viscosity
-    under pressure than Barus' law. This hardly matters where the film forms: with an oil of 0.2 Pa s, the films for
-    Roelands' law are also within 5 %.
-    """
+    """Central and minimum film agree with the regression within 5 %, which is the accuracy of the regression."""
+    # For Barus' law, the ratios of an independent calculation are 0.993 to 1.044. Roelands' law gives a lower viscosity
+    # under pressure than Barus' law. This hardly matters where the film forms: with an oil of 0.2 Pa s, the films for
+    # Roelands' law are also within 5 %.
     assert over_moes(m, l, law, viscosity) == pytest.approx((1.0, 1.0), rel=0.05)
 
 
@@ -71,10 +67,8 @@ def test_isoviscous_film_is_exact_to_a_percent() -> None:
 
 @pytest.mark.parametrize("w", [1.1e-5, 1e-4, 1e-3])
 def test_compression_thins_the_centre_of_the_film(w: float) -> None:
-    """Compression divides the central film by the relative density at the Hertzian pressure (0.3 to 2.9 GPa).
-
-    In an independent calculation, the product of film ratio and relative density is 0.98 to 1.05.
-    """
+    """Compression divides the central film by the relative density at the Hertzian pressure (0.3 to 2.9 GPa)."""
+    # In an independent calculation, the product of film ratio and relative density is 0.98 to 1.05.
     line_load, viscosity = w * MODULUS * RADIUS, 0.02
     thick = isothermal(line_load, viscosity, Lubricant(compressible=False))
     thin = isothermal(line_load, viscosity, Lubricant())
@@ -121,10 +115,8 @@ def test_compressible_film_against_pan_and_hamrock(
 
 @pytest.mark.parametrize("w", [2e-5, 1e-4, 5e-4])
 def test_spike_against_pan_and_hamrock(w: float) -> None:
-    """At U = 1e-11 and G = 5007, the spike of an independent calculation is 0.94 to 1.04 of the regression.
-
-    The test allows a further 2 %, because the nearest node does not lie exactly at the spike.
-    """
+    """At U = 1e-11 and G = 5007, the spike of an independent calculation is 0.94 to 1.04 of the regression."""
+    # The test allows a further 2 %, because the nearest node does not lie exactly at the spike.
     pressure = compressible(w, 1e-11, 5007).pressure
     assert pressure.second_maximum / MODULUS / pan_hamrock(w, 1e-11, 5007)[2] == pytest.approx(0.99, abs=0.07)
 

@@ -38,10 +38,8 @@ def point_a(
 
 
 def path_contacts(rheology: str, points: int = 50) -> list[LineContactInputs]:
-    """Return contacts along the path of contact from A to E, all under the same line load.
-
-    The roll length of the pinion increases from 4.859 to 19.137 mm.
-    """
+    """Return contacts along the path of contact from A to E, all under the same line load."""
+    # The roll length of the pinion increases from 4.859 to 19.137 mm.
     pair = gear_pair(paper_gears(1))
     contacts = []
     for rho_1 in np.linspace(4.859e-3, 19.137e-3, points):
@@ -115,10 +113,8 @@ def test_isothermal_film(nodes: int, central: float, minimum: float) -> None:
 
 
 def test_isothermal_spike_sharpens_with_the_mesh_at_one_place() -> None:
-    """The pressure spike stays at 0.88 b, but at L = 22 its height does not converge with the mesh.
-
-    In an independent calculation, the largest pressure is 1.55, 1.62 and 1.80 GPa with 81, 241 and 481 nodes.
-    """
+    """The pressure spike stays at 0.88 b, but at L = 22 its height does not converge with the mesh."""
+    # In an independent calculation, the largest pressure is 1.55, 1.62 and 1.80 GPa with 81, 241 and 481 nodes.
     peaks = [point_a(nodes, "newtonian", thermal=False) for nodes in (241, 481)]
     heights = [peak.pressure.maximum for peak in peaks if peak.pressure]
     assert heights[1] > 1.05 * heights[0]
@@ -149,20 +145,16 @@ def test_pressure_at_the_centre(rheology: str, thermal: bool, reference: float, 
 
 @pytest.mark.parametrize("row", [(81, 1.671e9, 0.71), (121, 1.714e9, 0.69), (241, 1.754e9, 0.70), (481, 1.766e9, 0.69)])
 def test_thermal_pressure_maximum_of_the_newtonian_film(row: tuple[int, float, float]) -> None:
-    """Height and place of the largest pressure agree with an independent calculation within 1 % and 0.03 b.
-
-    The height depends on the place of the nearest node.
-    """
+    """Height and place of the largest pressure agree with an independent calculation within 1 % and 0.03 b."""
+    # The height depends on the place of the nearest node.
     result = point_a(row[0], "newtonian", film_nodes=31 if row[0] >= 361 else 21)
     assert result.pressure.maximum == pytest.approx(row[1], rel=0.01)
     assert result.pressure.maximum_at / result.hertz.half_width == pytest.approx(row[2], abs=0.03)
 
 
 def test_isothermal_newtonian_friction_has_no_meaning() -> None:
-    """The coefficient of friction of an isothermal Newtonian film is 2.6e4, and the result contains a warning.
-
-    Nothing but heat limits the shear stress of a Newtonian film.
-    """
+    """The coefficient of friction of an isothermal Newtonian film is 2.6e4, and the result contains a warning."""
+    # Nothing but heat limits the shear stress of a Newtonian film.
     result = point_a(121, "newtonian", thermal=False)
     assert result.friction.coefficient == pytest.approx(2.6e4, rel=0.05)
     assert "high_traction" in codes(result)
@@ -180,10 +172,8 @@ def test_ten_megapascal_eyring_stress() -> None:
 
 
 def test_heat_balance_of_the_newtonian_film() -> None:
-    """Of 35.26 kW/m of generated heat, 16.77 and 18.29 kW/m flow into the two faces.
-
-    The oil carries 0.15 kW/m away, and its expansion takes up 0.05 kW/m.
-    """
+    """Of 35.26 kW/m of generated heat, 16.77 and 18.29 kW/m flow into the two faces."""
+    # The oil carries 0.15 kW/m away, and its expansion takes up 0.05 kW/m.
     heat = point_a(481, "newtonian", film_nodes=31).heat
     assert heat.to_surface_1 == pytest.approx(16770, rel=0.004)
     assert heat.to_surface_2 == pytest.approx(18290, rel=0.004)
@@ -196,10 +186,8 @@ def test_heat_balance_of_the_newtonian_film() -> None:
     ("rheology", "coefficient", "film_max"), [("newtonian", 0.069, None), ("ree_eyring", 0.0323, 442.0)]
 )
 def test_conductivity_that_doubles_under_pressure(rheology: str, coefficient: float, film_max: float | None) -> None:
-    """If the conductivity doubles, friction rises from 0.047 to 0.069 (Newtonian) or 0.0273 to 0.0323 (Ree-Eyring).
-
-    The model takes the conductivity of the oil as constant and therefore neglects this effect.
-    """
+    """If the conductivity doubles, friction rises from 0.047 to 0.069 (Newtonian) or 0.0273 to 0.0323 (Ree-Eyring)."""
+    # The model takes the conductivity of the oil as constant and therefore neglects this effect.
     inputs = LineContactInputs(POINT_A, model=replace(Model(), rheology=rheology), lubricant=Lubricant())
     result = solve(replace(inputs, lubricant=replace(inputs.lubricant, thermal_conductivity=0.28)))
     assert result.temperature is not None
@@ -220,11 +208,9 @@ def solved(result: LineContactResult) -> tuple[float, float, float, float, float
 
 @pytest.mark.parametrize("rheology", RHEOLOGIES)
 def test_film_is_thinner_than_dowson_and_higginson_along_the_path_and_thinnest_at_the_root(rheology: str) -> None:
-    """As in Fig. 23, the film is everywhere thinner than by the Dowson-Higginson formula, and thinnest at point A.
-
-    In an independent calculation, the film is 0.32 to 0.61 um (Ree-Eyring) or 0.31 to 0.61 um (Newtonian), and the
-    formula gives 0.50 to 0.67 um.
-    """
+    """As in Fig. 23, the film is everywhere thinner than by the Dowson-Higginson formula, and thinnest at point A."""
+    # In an independent calculation, the film is 0.32 to 0.61 um (Ree-Eyring) or 0.31 to 0.61 um (Newtonian), and the
+    # formula gives 0.50 to 0.67 um.
     results = path(rheology)
     assert [r.status for r in results].count("no_solution") == 0
     films = np.array([r.film.minimum for r in results]) * 1e6
@@ -252,10 +238,8 @@ def test_faces_heat_up_until_near_the_outlet_and_then_cool(rheology: str) -> Non
 
 
 def test_newtonian_faces_behind_the_outlet() -> None:
-    """At x = 1.1 b, the faces have 426 and 400 K in an independent calculation.
-
-    The test allows 3 K, because the heat in the ruptured film depends on a model of this film.
-    """
+    """At x = 1.1 b, the faces have 426 and 400 K in an independent calculation."""
+    # The test allows 3 K, because the heat in the ruptured film depends on a model of this film.
     result = point_a(241, "newtonian")
     x = result.curves.x / result.hertz.half_width
     for face, reference in ((result.curves.surface_1_temperature, 426), (result.curves.surface_2_temperature, 400)):
@@ -264,10 +248,8 @@ def test_newtonian_faces_behind_the_outlet() -> None:
 
 
 def test_film_is_hottest_at_the_hertz_maximum() -> None:
-    """The paper's statement (Fig. 21) that the film is hottest at x = 0 is true of the Ree-Eyring film only.
-
-    The Newtonian film is hottest at its second pressure maximum, x = 0.69 b. At x = 0, its middle has 572 K.
-    """
+    """The paper's statement (Fig. 21) that the film is hottest at x = 0 is true of the Ree-Eyring film only."""
+    # The Newtonian film is hottest at its second pressure maximum, x = 0.69 b. At x = 0, its middle has 572 K.
     eyring, newtonian = point_a(241), point_a(241, "newtonian")
     assert newtonian.curves.mid_film_temperature is not None
     assert abs(eyring.temperature.mid_film_max_at) < 0.05 * eyring.hertz.half_width
@@ -277,10 +259,8 @@ def test_film_is_hottest_at_the_hertz_maximum() -> None:
 
 
 def test_second_pressure_maximum() -> None:
-    """The paper calls the second pressure maximum inconspicuous (Fig. 20).
-
-    The computed Ree-Eyring film has no second maximum. The Newtonian film, which is the paper's, has one of 1.77 GPa.
-    """
+    """The paper calls the second pressure maximum inconspicuous (Fig. 20)."""
+    # The computed Ree-Eyring film has no second maximum. The Newtonian film, which is the paper's, has one of 1.77 GPa.
     eyring, newtonian = point_a(481, film_nodes=31).pressure, point_a(481, "newtonian", film_nodes=31).pressure
     assert eyring.second_maximum is None
     assert newtonian.second_maximum == pytest.approx(1.766e9, rel=0.005)
@@ -299,11 +279,9 @@ def test_flash_temperature_against_blok_at_the_root() -> None:
 
 @pytest.mark.parametrize(("rheology", "pinion", "gear"), [("newtonian", 42.3, 70.9), ("ree_eyring", 25.5, 44.3)])
 def test_flash_temperature_against_blok_at_the_tip(rheology: str, pinion: float, gear: float) -> None:
-    """At the tip (Fig. 22), Blok's flash temperature is 68.8 K; the flash temperature of the pinion's face is lower.
-
-    The flash temperature of the wheel's face is about equal to Blok's if the film is Newtonian. The text and the
-    conclusions of the paper contradict each other at this point.
-    """
+    """At the tip (Fig. 22), Blok's flash temperature is 68.8 K; the flash temperature of the pinion's face is lower."""
+    # The flash temperature of the wheel's face is about equal to Blok's if the film is Newtonian. The text and the
+    # conclusions of the paper contradict each other at this point.
     inputs = path_contacts(rheology)[-1]
     result = solve(inputs)
     assert blok_flash(inputs.contact, 0.06) == pytest.approx(68.8, abs=0.3)
@@ -312,10 +290,8 @@ def test_flash_temperature_against_blok_at_the_tip(rheology: str, pinion: float,
 
 
 def test_cooler_inlet_hardly_matters() -> None:
-    """The paper stresses that the oil enters at 360 K, but an inlet temperature of 333 K changes the results little.
-
-    The minimum film is 1.4 % thicker, friction is 0.9 % smaller, and the hottest place of face 1 is 1 K cooler.
-    """
+    """The paper stresses that the oil enters at 360 K, but an inlet temperature of 333 K changes the results little."""
+    # The minimum film is 1.4 % thicker, friction is 0.9 % smaller, and the hottest place of face 1 is 1 K cooler.
     inputs = LineContactInputs(POINT_A, lubricant=Lubricant())
     cool = solved(solve(replace(inputs, temperatures=replace(inputs.temperatures, inlet=333.0))))
     warm = solved(point_a())
@@ -356,10 +332,8 @@ RATIOS = (0.0, 0.02, 0.05, 0.1, 0.3, 0.6, 1.0, 1.5)
 
 @cache
 def at_ratio(ratio: float, model: Model) -> LineContactResult:
-    """Solve a contact with the given slide-roll ratio; surface 1 is faster if the ratio is positive.
-
-    The reduced radius is 6.5 mm, the line load 350 N/mm, the mean speed 2.4 m/s, and the Hertzian pressure 1.39 GPa.
-    """
+    """Solve a contact with the given slide-roll ratio; surface 1 is faster if the ratio is positive."""
+    # The reduced radius is 6.5 mm, the line load 350 N/mm, the mean speed 2.4 m/s, and the Hertzian pressure 1.39 GPa.
     speeds = 2.4 * (1 + ratio / 2), 2.4 * (1 - ratio / 2)
     return solve(LineContactInputs(Contact(3.5e5, 6.5e-3, *speeds), model=model, lubricant=Lubricant()))
 
@@ -369,11 +343,9 @@ def at_ratio(ratio: float, model: Model) -> LineContactResult:
 def test_traction(
     rheology: str, ratio: float, newtonian: float, eyring: float, newtonian_max: float | None, eyring_max: float | None
 ) -> None:
-    """With 91 nodes, friction agrees with an independent calculation within 2 % (Ree-Eyring) or 3 % (Newtonian).
-
-    The largest temperature of the Ree-Eyring film agrees within 2 K. If the slide-roll ratio is below 0.3, a Newtonian
-    result warns that its friction is not reliable.
-    """
+    """With 91 nodes, friction agrees with an independent calculation within 2 % (Ree-Eyring) or 3 % (Newtonian)."""
+    # The largest temperature of the Ree-Eyring film agrees within 2 K. If the slide-roll ratio is below 0.3, a
+    # Newtonian result warns that its friction is not reliable.
     result = at_ratio(ratio, replace(Model(nodes=91, refine_mesh=False), rheology=rheology))
     found, hottest = result.friction.coefficient, result.temperature.film_max
     if rheology == "ree_eyring":
@@ -414,10 +386,8 @@ def test_traction_rises_peaks_and_falls_with_the_slide_roll_ratio() -> None:
 
 
 def test_at_zero_slip_only_inlet_heating_remains() -> None:
-    """Without sliding, there is no sliding power and no traction.
-
-    The oil that is squeezed back in the inlet is still sheared, which generates heat.
-    """
+    """Without sliding, there is no sliding power and no traction."""
+    # The oil that is squeezed back in the inlet is still sheared, which generates heat.
     result = at_ratio(0.0, Model())
     assert result.friction.power == 0.0
     assert result.friction.coefficient < 1e-6

@@ -58,10 +58,8 @@ def test_a_grade_of_a_synthetic_oil_has_the_index_of_its_kind(kind: OilKind, ind
 
 @pytest.mark.parametrize(("kind", "expected"), [("mineral", 25.6), ("pao", 33.9), ("polyglycol", 44.8)])
 def test_grade_220_at_90_degrees_by_kind(kind: OilKind, expected: float) -> None:
-    """At 90 C, data sheets give 33.5 mm2/s for a polyalphaolefin and 46.8 mm2/s for a polyglycol of grade 220.
-
-    With the viscosity of a mineral oil, the films would be 20 and 40 % too thin.
-    """
+    """At 90 C, data sheets give 33.5 mm2/s for a polyalphaolefin and 46.8 mm2/s for a polyglycol of grade 220."""
+    # With the viscosity of a mineral oil, the films would be 20 and 40 % too thin.
     assert iso_vg(220, kind).kinematic_viscosity(363.15) * 1e6 == pytest.approx(expected, abs=0.1)
 
 
@@ -80,10 +78,8 @@ def test_a_viscosity_at_40_degrees_alone_has_the_index_of_its_kind() -> None:
 
 
 def test_walther_is_a_straight_line_in_its_coordinates() -> None:
-    """The quantity log log (nu + 0.7) is a linear function of log T.
-
-    At the middle of log T between 40 and 100 C, its value is the mean of the values at both ends.
-    """
+    """The quantity log log (nu + 0.7) is a linear function of log T."""
+    # At the middle of log T between 40 and 100 C, its value is the mean of the values at both ends.
     oil = OilSheet(220e-6, 19e-6)
     middle = (313.15 * 373.15) ** 0.5
     heights = [log10(log10(oil.kinematic_viscosity(t) * 1e6 + 0.7)) for t in (313.15, middle, 373.15)]
@@ -92,10 +88,8 @@ def test_walther_is_a_straight_line_in_its_coordinates() -> None:
 
 @pytest.mark.parametrize(("kind", "expected"), [("mineral", 16.4), ("pao", 12.0), ("ester", 10.8), ("polyglycol", 9.4)])
 def test_pressure_viscosity_at_38_square_millimetres_per_second(kind: OilKind, expected: float) -> None:
-    """At nu = 38.1 mm2/s, the coefficient of a mineral oil is 9.904 x 38.1^0.1390 = 16.4 1/GPa.
-
-    An oil VG 150 has this viscosity at 70 C. The other kinds are computed at the same viscosity.
-    """
+    """At nu = 38.1 mm2/s, the coefficient of a mineral oil is 9.904 x 38.1^0.1390 = 16.4 1/GPa."""
+    # An oil VG 150 has this viscosity at 70 C. The other kinds are computed at the same viscosity.
     oil = OilSheet(150e-6, 14.8e-6, kind)
     assert oil.kinematic_viscosity(343.15) * 1e6 == pytest.approx(38.1, abs=0.05)
     assert oil.pressure_coefficient(343.15) * 1e9 == pytest.approx(expected, abs=0.06)
@@ -215,19 +209,15 @@ def test_mean_friction_grows_with_the_fifth_root_of_load_and_factors() -> None:
 
 
 def test_light_loads_count_as_150_newtons_per_millimetre() -> None:
-    """The line load of stage 4, 60.75 N m / 36 mm / 20 mm = 84 N/mm, is raised to the bound of 150 N/mm.
-
-    Without the bound, the coefficient of friction would be 0.044.
-    """
+    """The line load of stage 4, 60.75 N m / 36 mm / 20 mm = 84 N/mm, is raised to the bound of 150 N/mm."""
+    # Without the bound, the coefficient of friction would be 0.044.
     assert friction(fzg(1)) == friction(fzg(4)) == pytest.approx(0.0496, abs=5e-5)
     assert friction(fzg(4, application_factor=150 / (60.75 / 0.72))) == pytest.approx(friction(fzg(4)))
 
 
 def test_pitch_line_velocity_counts_up_to_50_metres_per_second() -> None:
-    """At 125 m/s, the bound of 50 m/s raises the coefficient of friction by the factor (125/50)^0.2 = 1.201.
-
-    The working pitch radius is 36.6 mm.
-    """
+    """At 125 m/s, the bound of 50 m/s raises the coefficient of friction by the factor (125/50)^0.2 = 1.201."""
+    # The working pitch radius is 36.6 mm.
     pair = fzg(8)
 
     def at(velocity: float) -> float:
@@ -243,12 +233,10 @@ def loss_friction(inputs: LoadDistributionInputs, kind: OilKind = "mineral", vis
 
 @pytest.mark.parametrize(("stage", "expected"), [(4, 0.0397), (6, 0.0420), (8, 0.0471), (10, 0.0515), (12, 0.0553)])
 def test_friction_of_the_losses_of_the_load_stages(stage: int, expected: float) -> None:
-    """The coefficient of friction agrees with a calculation by hand for stage 8, which gives 0.0471.
-
-    T_1 = 239.3 N m, r_b1 = 33.83 mm and a face width of 20 mm give a line load of 353.7 N/mm.
-    v_SigmaC = 2 x 8.3 m/s x sin 22.44 degrees = 6.336 m/s, rho_redC = 8.382 mm: (353.7/(6.336 x 8.382))^0.2 = 1.4614.
-    The coefficient is 0.048 x 1.4614 x 15^-0.05 x 0.35^0.25 = 0.0471. Up to stage 4, the line load counts as 150 N/mm.
-    """
+    """The coefficient of friction agrees with a calculation by hand for stage 8, which gives 0.0471."""
+    # T_1 = 239.3 N m, r_b1 = 33.83 mm and a face width of 20 mm give a line load of 353.7 N/mm. v_SigmaC = 2 x 8.3 m/s
+    # x sin 22.44 degrees = 6.336 m/s, rho_redC = 8.382 mm: (353.7/(6.336 x 8.382))^0.2 = 1.4614. The coefficient is
+    # 0.048 x 1.4614 x 15^-0.05 x 0.35^0.25 = 0.0471. Up to stage 4, the line load counts as 150 N/mm.
     assert loss_friction(fzg(stage)) == pytest.approx(expected, abs=6e-5)
 
 
@@ -306,10 +294,8 @@ def test_speed_of_the_test_is_that_of_its_name() -> None:
 
 
 def test_mesh_stiffness_over_single_stiffness_of_the_fzg_c_pair() -> None:
-    """A printed FVA report has a single stiffness of 11.48 N/(mm um) and a mesh stiffness of 15.23 N/(mm um).
-
-    The report does not print the mean dedendum of both gears. The test assumes 1.4 modules.
-    """
+    """A printed FVA report has a single stiffness of 11.48 N/(mm um) and a mesh stiffness of 15.23 N/(mm um)."""
+    # The report does not print the mean dedendum of both gears. The test assumes 1.4 modules.
     pair = GearPairInputs(
         GearTeeth(16, 0.1817, None, 1.4, tip_diameter=82.45e-3),
         GearTeeth(24, 0.1715, None, 1.4, tip_diameter=118.35e-3),

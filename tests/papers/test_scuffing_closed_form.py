@@ -50,10 +50,8 @@ def contact_at(result: LoadDistribution, x: float, line_load: float) -> Contact:
 
 
 def test_contact_at_the_start_of_mesh_of_pair_1() -> None:
-    """Radius and speeds follow Xue Eqs. 13 and 18; flash temperature and film follow Xue Eqs. 25 and 27.
-
-    Flash temperature and film (Figs. 22 and 23) are computed at the printed line load.
-    """
+    """Radius and speeds follow Xue Eqs. 13 and 18; flash temperature and film follow Xue Eqs. 25 and 27."""
+    # Flash temperature and film (Figs. 22 and 23) are computed at the printed line load.
     contact, oil = contact_at(scuffing(1).distribution, 0.0, 273e3), Lubricant()
     assert contact.radius * 1e3 == pytest.approx(4.0666, abs=1e-4)
     assert (contact.speed_1, contact.speed_2) == pytest.approx((1.018, 3.708), abs=1e-3)
@@ -124,10 +122,8 @@ def test_the_oil_enters_at_bulk_temperature() -> None:
 
 
 def iso_flash(gears: GearPairInputs, scale: float) -> tuple[float, float]:
-    """Return the flash temperature [K] at one point of the path, by Blok's formula and by ISO/TR 13989-1.
-
-    The formula of ISO/TR 13989-1 is mu X_M X_G (w cos a_wt)^(3/4) v^(1/2) / a^(1/4).
-    """
+    """Return the flash temperature [K] at one point of the path, by Blok's formula and by ISO/TR 13989-1."""
+    # The formula of ISO/TR 13989-1 is mu X_M X_G (w cos a_wt)^(3/4) v^(1/2) / a^(1/4).
     result = solve_load_distribution(replace(paper_pair(1), gears=gears))
     path, pair = result.path_of_contact, result.path_of_contact.pair
     x = scale * path.length

@@ -312,10 +312,9 @@ def test_default_model_of_pair_1() -> None:
 def test_half_space_stiffness_against_iso_6336_1(
     helix: float, deviations: dict[str, float], own: float, standard: float, excess: float
 ) -> None:
-    """The mesh stiffness and the single stiffness at the pitch point are compared with ISO 6336-1.
-
-    Teeth cut in the transverse section are too stiff. Above a helix angle of 15 degrees, the result contains a warning.
-    """
+    """The mesh stiffness and the single stiffness at the pitch point are compared with ISO 6336-1."""
+    # Teeth cut in the transverse section are too stiff. Above a helix angle of 15 degrees, the result contains a
+    # warning.
     # Reference, transverse with the contact term undivided: -2.5, +9.3, +31 %; divided, the contact yields more by
     # 1/cos(beta_b). Reference, normal: -6, -6, -5 %. All gears 20 mm wide.
     results = {section: at_helix(helix, Model(section=section)) for section in deviations}

@@ -40,10 +40,8 @@ def test_fzg_type_a_load_stages(torque: float, pressure: float) -> None:
 
 
 def test_fzg_type_a_pitch_point_lies_in_double_contact() -> None:
-    """At the pitch point C, two pairs of teeth share the load, because the path of contact begins just ahead of C.
-
-    The pressure in the mesh is therefore lower than the nominal pressure of the load stage.
-    """
+    """At the pitch point C, two pairs of teeth share the load, because the path of contact begins just ahead of C."""
+    # The pressure in the mesh is therefore lower than the nominal pressure of the load stage.
     result = solve_load_distribution(LoadDistributionInputs(FZG_A, Load(302.0, angular_speed(2250))))
     path = result.path_of_contact
     pitch_x = path.pitch_point - path.start
@@ -59,10 +57,8 @@ def test_fzg_type_a_pitch_point_lies_in_double_contact() -> None:
 
 
 def test_iso_tr_6336_30_example_1() -> None:
-    """Tangential force, stiffness and contact stress agree with the example.
-
-    The contact stress sigma_H0 / Z_beta is the Hertzian pressure at C under the line load F_bt / (b eps_alpha).
-    """
+    """Tangential force, stiffness and contact stress agree with the example."""
+    # The contact stress sigma_H0 / Z_beta is the Hertzian pressure at C under the line load F_bt / (b eps_alpha).
     path = path_of_contact(gear_pair(EXAMPLE_1))
     assert 9000 / path.pair.pinion.reference_radius == pytest.approx(127352, abs=0.5)
     stiffness = standard_stiffness(path)
@@ -80,11 +76,9 @@ FZG_C = GearPairInputs(
 
 
 def test_standard_stiffness_is_that_of_the_pair_whichever_drives() -> None:
-    """The stiffness does not depend on which gear drives.
-
-    Gear 1 of the formula is the gear with fewer teeth. If the numbers of teeth are equal, gear 1 is the gear with the
-    larger profile shift.
-    """
+    """The stiffness does not depend on which gear drives."""
+    # Gear 1 of the formula is the gear with fewer teeth. If the numbers of teeth are equal, gear 1 is the gear with the
+    # larger profile shift.
     for pair in (EXAMPLE_1, FZG_C, replace(FZG_C, wheel=replace(FZG_C.wheel, teeth=16), centre_distance=None)):
         turned = replace(pair, pinion=pair.wheel, wheel=pair.pinion)
         one, other = (standard_stiffness(path_of_contact(gear_pair(each))) for each in (pair, turned))
@@ -93,10 +87,8 @@ def test_standard_stiffness_is_that_of_the_pair_whichever_drives() -> None:
 
 
 def test_standard_stiffness_goes_with_the_modulus_of_both_bodies() -> None:
-    """The stiffness is proportional to E = 2 E1 E2/(E1 + E2).
-
-    For steel on bronze of 105 GPa, E is 139.1 GPa, which is 0.675 of the value for steel on steel.
-    """
+    """The stiffness is proportional to E = 2 E1 E2/(E1 + E2)."""
+    # For steel on bronze of 105 GPa, E is 139.1 GPa, which is 0.675 of the value for steel on steel.
     steel, bronze = Solid(), Solid(youngs_modulus=105e9)
     both, mixed = (
         solve_load_distribution(LoadDistributionInputs(FZG_A, Load(302.0, 200.0), wheel_material=wheel)).stiffness
@@ -123,10 +115,8 @@ def straight_mismatch(torque_factor: float) -> float:
 
 
 def test_iso_face_load_factor_of_a_straight_mismatch() -> None:
-    """K_H_beta is 1 + F c_gamma b / (2 F_m) with F = 27.5 um, c_gamma = 14.845 N/(mm um) and F_m/b = 1277.3 N/mm.
-
-    The difference K_H_beta - 1 is inversely proportional to the torque.
-    """
+    """K_H_beta is 1 + F c_gamma b / (2 F_m) with F = 27.5 um, c_gamma = 14.845 N/(mm um) and F_m/b = 1277.3 N/mm."""
+    # The difference K_H_beta - 1 is inversely proportional to the torque.
     # The flank map of 200 steps smears the two jumps of a spur gear's load over one step each.
     assert straight_mismatch(1.0) == pytest.approx(1 + 27.5 * 14.845 / (2 * 1277.3), abs=2e-4)
     assert straight_mismatch(1.0) == pytest.approx(1.160, abs=5e-4)
@@ -139,10 +129,8 @@ def test_iso_face_load_factor_of_a_straight_mismatch() -> None:
 
 
 def test_din_3990_example_geometry() -> None:
-    """The geometry agrees with the tests of github.com/hanslhansl/din3990.
-
-    The gears have 19/104 teeth, a module of 4 mm and profile shifts of 0.5/0.15.
-    """
+    """The geometry agrees with the tests of github.com/hanslhansl/din3990."""
+    # The gears have 19/104 teeth, a module of 4 mm and profile shifts of 0.5/0.15.
     gears = GearPairInputs(GearTeeth(19, 0.5), GearTeeth(104, 0.15), 4e-3, 48.64e-3, rack_tip_radius=GROUND_FILLET)
     path = path_of_contact(gear_pair(gears))
     assert path.pair.centre_distance * 1e3 == pytest.approx(248.506843355171, rel=1e-12)
@@ -151,10 +139,8 @@ def test_din_3990_example_geometry() -> None:
 
 
 def test_ross_contact_ratio_and_hertz_stiffness() -> None:
-    """Contact ratio and Hertzian stiffness agree with the tests of github.com/petrobras/ross.
-
-    The gears have 62/62 teeth, a module of 2 mm and a width of 20 mm; k_H = pi E b/[4 (1 - nu^2)] = 3.5558686e9 N/m.
-    """
+    """Contact ratio and Hertzian stiffness agree with the tests of github.com/petrobras/ross."""
+    # The gears have 62/62 teeth, a module of 2 mm and a width of 20 mm; k_H = pi E b/[4 (1 - nu^2)] = 3.5558686e9 N/m.
     path = path_of_contact(
         gear_pair(GearPairInputs(GearTeeth(62), GearTeeth(62), 2e-3, 20e-3, rack_tip_radius=GROUND_FILLET))
     )
@@ -175,19 +161,15 @@ GEARPIE = {
 
 @pytest.mark.parametrize(("name", "published"), [("C14", 0.1986), ("H501", 0.1890), ("H701", 0.1425)])
 def test_gearpie_loss_factor_of_rigid_teeth(name: str, published: float) -> None:
-    """The loss factors agree with github.com/cfernandesFEUP/GEARpie.
-
-    GEARpie shares the load in proportion to the contact length, as a uniform stiffness does.
-    """
+    """The loss factors agree with github.com/cfernandesFEUP/GEARpie."""
+    # GEARpie shares the load in proportion to the contact length, as a uniform stiffness does.
     result = solve_load_distribution(LoadDistributionInputs(GEARPIE[name], PAPER_LOAD, model=UNIFORM))
     assert result.friction_loss.loss_factor == pytest.approx(published, abs=6e-5)
 
 
 def test_gearpie_loss_factor_of_the_spur_pair_is_ohlendorfs() -> None:
-    """The loss factor is Ohlendorf's H_V = pi (u + 1)/(z_1 u) (1 - eps_alpha + eps_1^2 + eps_2^2).
-
-    The formula is exact if the pairs of teeth share the load equally.
-    """
+    """The loss factor is Ohlendorf's H_V = pi (u + 1)/(z_1 u) (1 - eps_alpha + eps_1^2 + eps_2^2)."""
+    # The formula is exact if the pairs of teeth share the load equally.
     result = solve_load_distribution(LoadDistributionInputs(GEARPIE["C14"], PAPER_LOAD, model=UNIFORM))
     path = result.path_of_contact
     pitch = path.plane.base_pitch
@@ -198,10 +180,8 @@ def test_gearpie_loss_factor_of_the_spur_pair_is_ohlendorfs() -> None:
 
 
 def test_gearpie_single_stiffness_of_the_spur_pair() -> None:
-    """With linear contact, the stiffness of C14 is within 6 % of GEARpie's 15.60 N/(mm um).
-
-    GEARpie has another tooth model. Without the Hertzian contact, it gives 16.35 N/(mm um).
-    """
+    """With linear contact, the stiffness of C14 is within 6 % of GEARpie's 15.60 N/(mm um)."""
+    # GEARpie has another tooth model. Without the Hertzian contact, it gives 16.35 N/(mm um).
     stiff = solve_load_distribution(LoadDistributionInputs(GEARPIE["C14"], PAPER_LOAD, model=Model(contact="linear")))
     soft = solve_load_distribution(LoadDistributionInputs(GEARPIE["C14"], PAPER_LOAD))
     assert stiff.stiffness.max * 1e-9 == pytest.approx(15.60, rel=0.06)
@@ -209,10 +189,8 @@ def test_gearpie_single_stiffness_of_the_spur_pair() -> None:
 
 
 def test_gearpie_h951_has_no_tip_clearance() -> None:
-    """Without tip shortening, the profile shifts 1.6915/2.0003 leave a tip clearance of -0.58 mm.
-
-    The gears have the backlash-free centre distance.
-    """
+    """Without tip shortening, the profile shifts 1.6915/2.0003 leave a tip clearance of -0.58 mm."""
+    # The gears have the backlash-free centre distance.
     teeth = GearTeeth(38, 1.6915), GearTeeth(57, 2.0003)
     gears = GearPairInputs(*teeth, 1.75e-3, 21.2418e-3, helix_angle=radians(15), rack_tip_radius=0.38)
     with pytest.raises(InvalidInput, match=r"0\.58") as refusal:
@@ -225,10 +203,8 @@ def test_gearpie_h951_has_no_tip_clearance() -> None:
 
 @cache
 def variation(overlap: float) -> float:
-    """Return the peak-to-peak transmission error of pair 1, divided by the mean transmission error.
-
-    The stiffness is uniform. The face width is chosen for the given overlap ratio.
-    """
+    """Return the peak-to-peak transmission error of pair 1, divided by the mean transmission error."""
+    # The stiffness is uniform. The face width is chosen for the given overlap ratio.
     wider = overlap * pi * 3e-3 / sin(radians(9.8)) / 20e-3
     inputs = scaled(paper_pair(1, model=UNIFORM), wider, "load.pinion_torque", "gears.face_width")
     result = solve_load_distribution(replace(inputs, resolution=Resolution(profile_points=11, face_points=11)))

@@ -159,10 +159,8 @@ def test_an_attribute_becomes_its_field(
 
 
 def test_heat_of_the_material_reaches_the_flash() -> None:
-    """The thermal conductivity and heat capacity in the file change the flash temperature from 43.7 to 74.3 K.
-
-    A contact is hotter if its material conducts heat poorly.
-    """
+    """The thermal conductivity and heat capacity in the file change the flash temperature from 43.7 to 74.3 K."""
+    # A contact is hotter if its material conducts heat poorly.
     steel = {"thermal_conductivity": (15.0, "W / (m K)"), "thermal_capacity": (500.0, "J / (kg K)")}
     flashes = []
     for attributes in ({}, steel):
@@ -669,10 +667,8 @@ def placed(unit: Unit, type_: str) -> int:
 
 @pytest.mark.parametrize("type_", SCHEMAS)
 def test_no_attribute_of_the_standard_is_dropped_silently(type_: str) -> None:
-    """Every attribute of the standard is either used or listed with the reason why it is not used.
-
-    The reason for unknown names does not occur.
-    """
+    """Every attribute of the standard is either used or listed with the reason why it is not used."""
+    # The reason for unknown names does not occur.
     unit = gear_set()
     component = placed(unit, type_)
     for name in SCHEMAS[type_]:

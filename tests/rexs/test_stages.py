@@ -96,10 +96,8 @@ def test_power_enters_where_torque_and_speed_have_one_sign() -> None:
 
 @pytest.mark.parametrize("relation", ["assembly", "ordered_assembly"])
 def test_a_torque_counts_about_the_axis_of_its_shaft(relation: str) -> None:
-    """Where power enters, speed and torque of the shaft have the same sign.
-
-    The kind of relation that attaches the load to the shaft does not matter.
-    """
+    """Where power enters, speed and torque of the shaft have the same sign."""
+    # The kind of relation that attaches the load to the shaft does not matter.
     unit = turbo_unit()
     wheel_shaft = [each for each in unit.components if each["type"] == "shaft"][1]
     driving, driven = (each["id"] for each in unit.components if each["type"] == "external_load")

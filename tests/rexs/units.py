@@ -125,10 +125,8 @@ def _json(attributes: dict[str, tuple[Value, str]]) -> list[dict[str, Any]]:
 
 
 def three_stages(version: str = "1.0") -> Unit:
-    """Return a helical unit of three stages with 23/67, 13/76 and 14/87 teeth.
-
-    The driving shaft has a speed of 1,400 1/min and a torque of 4.724562 N m.
-    """
+    """Return a helical unit of three stages with 23/67, 13/76 and 14/87 teeth."""
+    # The driving shaft has a speed of 1,400 1/min and a torque of 4.724562 N m.
     old = version == "1.0"
     degree = "°" if version < "1.4" else "deg"
     flank_type = "flank_geometry" if old else "cylindrical_gear_flank"

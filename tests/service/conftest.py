@@ -32,10 +32,8 @@ def address(service: Server) -> str:
 
 @pytest.fixture
 def visit(browser: Browser, server: str) -> Iterator[Callable[..., Page]]:
-    """Yield a function that opens an address in a new window.
-
-    The test fails if a page requests anything from another host or reports an error.
-    """
+    """Yield a function that opens an address in a new window."""
+    # The test fails if a page requests anything from another host or reports an error.
     complaints: list[str] = []
     opened: list[BrowserContext] = []
 

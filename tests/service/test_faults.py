@@ -77,10 +77,8 @@ def test_a_stop_of_the_whole_group_lets_calls_in_flight_end() -> None:
 
 
 def outcomes_while_killing(process: subprocess.Popen[str], address: str) -> Counter[str]:
-    """Kill workers while clients send requests, and count the answers by outcome.
-
-    The outcome is `right` or `wrong`, or the code of the problem if the answer is a problem.
-    """
+    """Kill workers while clients send requests, and count the answers by outcome."""
+    # The outcome is `right` or `wrong`, or the code of the problem if the answer is a problem.
     cases = [example for _, example in sorted(examples().items()) if example.endpoint.startswith("/v1/coupling")]
     references = {
         case.name: httpx.post(address + case.endpoint, json=case.request, timeout=30).content for case in cases

@@ -13,10 +13,8 @@ pytestmark = pytest.mark.service
 
 
 def schemathesis(*options: str) -> subprocess.CompletedProcess[str]:
-    """Run Schemathesis against a service whose studies end after one second.
-
-    The program starts about a thousand studies. A minute for each study would not find more faults.
-    """
+    """Run Schemathesis against a service whose studies end after one second."""
+    # The program starts about a thousand studies. A minute for each study would not find more faults.
     program = Path(sys.executable).with_name("schemathesis")
     with running_server(study_points=16, spectrum_solves=16, study_deadline_s=1) as (_, address):
         httpx.get(f"{address}/openapi.json", timeout=60).raise_for_status()  # made once; the program waits for 10 s
@@ -30,10 +28,8 @@ def schemathesis(*options: str) -> subprocess.CompletedProcess[str]:
 
 
 def test_every_operation() -> None:
-    """Schemathesis finds no fault in a short search.
-
-    A longer search has all phases: `schemathesis run --checks all --max-examples 1000 ADDRESS/openapi.json`.
-    """
+    """Schemathesis finds no fault in a short search."""
+    # A longer search has all phases: `schemathesis run --checks all --max-examples 1000 ADDRESS/openapi.json`.
     outcome = schemathesis("--phases", "examples,fuzzing", "--max-examples", "5")
     assert outcome.returncode == 0, outcome.stdout[-10_000:]
 

@@ -100,10 +100,8 @@ def test_a_late_byte_and_a_late_end_cost_no_answer(proxy: str) -> None:
 
 
 def test_floods_reach_nobody_else(service: Server, proxy: str) -> None:
-    """Two floods neither delay another client nor fill the memory of the service.
-
-    One flood sends bodies in chunks of one byte, the other pipelines requests whose answers nobody reads.
-    """
+    """Two floods neither delay another client nor fill the memory of the service."""
+    # One flood sends bodies in chunks of one byte, the other pipelines requests whose answers nobody reads.
     process, direct = service
     httpx.get(f"{direct}/openapi.json", timeout=20)  # the first one takes a second
     before = memory_mb(process.pid)

@@ -87,10 +87,8 @@ def test_beside_80_long_calculations_of_another_client(address: str) -> None:
 
 
 def test_every_owner_beside_others_in_a_closed_loop_advances(address: str) -> None:
-    """Four clients and a sweep share two workers, and each of the five gets more than half of its fair share.
-
-    The fair share is 4 s of computing time in 10 s.
-    """
+    """Four clients and a sweep share two workers, and each of the five gets more than half of its fair share."""
+    # The fair share is 4 s of computing time in 10 s.
     seconds, work_s = 10.0, 0.2
     counts: Counter[str] = Counter()
     end = time.monotonic() + seconds
@@ -160,10 +158,8 @@ def test_beside_two_studies_of_long_points(address: str) -> None:
 
 
 def test_points_of_a_study_end_with_it(service: Server) -> None:
-    """The workers hang at points of the study, and are replaced after the client has left.
-
-    A worker whose point ends is not replaced.
-    """
+    """The workers hang at points of the study, and are replaced after the client has left."""
+    # A worker whose point ends is not replaced.
     process, address = service
     wait_until(lambda: len(set(workers(process))) == 2)
     before = set(workers(process))
@@ -179,10 +175,8 @@ def test_points_of_a_study_end_with_it(service: Server) -> None:
 
 @pytest.fixture(scope="module")
 def one_worker() -> Iterator[str]:
-    """Yield the address of a service with one worker and three places in its queue.
-
-    The header `X-User` may name the client of a request.
-    """
+    """Yield the address of a service with one worker and three places in its queue."""
+    # The header `X-User` may name the client of a request.
     with faulty_server(workers=1, queue=3, deadline_s=4, client_header="X-User") as (_, address):
         yield address
 

@@ -165,10 +165,8 @@ def test_runs_on_without_standard_streams(closed: str, tmp_path: Path) -> None:
 
 @pytest.mark.skipif(not socket.has_dualstack_ipv6(), reason="no IPv6 here")
 def test_the_unspecified_address_serves_both_families(tmp_path: Path) -> None:
-    """The service treats a client in the same way over IPv4 and over IPv6.
-
-    Over both, a proxy that the settings name is trusted: the log shows the client that `X-Forwarded-For` names.
-    """
+    """The service treats a client in the same way over IPv4 and over IPv6."""
+    # Over both, a proxy that the settings name is trusted: the log shows the client that `X-Forwarded-For` names.
     log = tmp_path / "log"
     with started_server(host="::", log=log, proxies="127.0.0.1") as (_, address):
         addresses = [address, address.replace("127.0.0.1", "[::1]")]
@@ -181,10 +179,8 @@ def test_the_unspecified_address_serves_both_families(tmp_path: Path) -> None:
 
 
 def answer_after_a_start(cache: Path, log: Path) -> bytes:
-    """Start a service with the kernels in `cache`, and return its answer to a coupling request.
-
-    The service loads the kernels of a few stages only.
-    """
+    """Start a service with the kernels in `cache`, and return its answer to a coupling request."""
+    # The service loads the kernels of a few stages only.
     with started_server(FAULTY, environment={"NUMBA_CACHE_DIR": str(cache)}, log=log, workers=2) as (process, address):
         wait_until_warm(process, address)
         answer = httpx.post(address + COUPLING.endpoint, json=COUPLING.request, timeout=20)

@@ -30,10 +30,8 @@ def test_no_oil_is_assumed() -> None:
 
 
 def test_without_friction_no_flash_temperature_is_stated_where_a_line_is_partly_without_contact() -> None:
-    """The largest flash temperature is None, not 0, if the coefficient of friction is unknown.
-
-    Points out of contact then have a flash temperature of 0, and points in contact have none.
-    """
+    """The largest flash temperature is None, not 0, if the coefficient of friction is unknown."""
+    # Points out of contact then have a flash temperature of 0, and points in contact have none.
     crowned = replace(LOADED, modifications=scuffing.Modifications(lead_crowning=500e-6))
     result = scuffing.solve_scuffing(scuffing.ScuffingInputs(crowned))
     assert {"unloaded", "ok"} <= set(result.path.status)

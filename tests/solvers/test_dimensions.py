@@ -35,10 +35,8 @@ def other_units(random: Generator) -> Units:
 
 @seeds(25, 1000)
 def test_coupling(random: Generator) -> None:
-    """All numbers of a coupling scale with their units, except those that depend on two constants with fixed units.
-
-    The constants are gravity and the sliding velocity limit of the Tribology Handbook.
-    """
+    """All numbers of a coupling scale with their units, except those that depend on two constants with fixed units."""
+    # The constants are gravity and the sliding velocity limit of the Tribology Handbook.
     inputs, units = random_inputs(random), other_units(random)
     without = rf"{ABSOLUTE}|^limits\.(sliding_velocity_limit|allowable_misalignment|sleeve_centring_torque)$"
     one, other = solve_coupling(inputs), solve_coupling(in_other_units(inputs, units))
@@ -47,11 +45,9 @@ def test_coupling(random: Generator) -> None:
 
 @seeds(5, 100)
 def test_sleeve_orbit(random: Generator) -> None:
-    """The iteration of the orbit ends at changes below 1e-12 m.
-
-    The tolerance of the comparison contains 144 times this change, because the force of order 12 is 144 times as
-    sensitive as the path.
-    """
+    """The iteration of the orbit ends at changes below 1e-12 m."""
+    # The tolerance of the comparison contains 144 times this change, because the force of order 12 is 144 times as
+    # sensitive as the path.
     inputs, units = random_inputs(random, errors=True, single=True), other_units(random)
     one, other = solve_orbit(inputs), solve_orbit(in_other_units(inputs, units))
     tolerance = 1e-5 + 144 * 1e-12 / min(one.max_displacement, other.max_displacement)
@@ -61,13 +57,11 @@ def test_sleeve_orbit(random: Generator) -> None:
 
 @seeds(4, 200)
 def test_pumping(random: Generator) -> None:
-    """All numbers of the pumping model scale with their units, except the fields and the hottest position.
-
-    If a slice enters its stroke exactly at a recorded angle, the field may show the slice before or in its stroke. If
-    two positions are equally hot, the first position is reported. The integration of the gas dynamics amplifies
-    rounding errors: up to 5e-9 in 200 draws, and up to 3e-8 in uncertainties and pulsations, which are differences. If
-    only the unit of length, mass or time changes, the errors are below 1e-9.
-    """
+    """All numbers of the pumping model scale with their units, except the fields and the hottest position."""
+    # If a slice enters its stroke exactly at a recorded angle, the field may show the slice before or in its stroke. If
+    # two positions are equally hot, the first position is reported. The integration of the gas dynamics amplifies
+    # rounding errors: up to 5e-9 in 200 draws, and up to 3e-8 in uncertainties and pulsations, which are differences.
+    # If only the unit of length, mass or time changes, the errors are below 1e-9.
     setup = random_setup(random, PumpingModel(slices=int(random.integers(10, 50))))
     inputs, units = PumpingInputs(setup, random_speed(random, setup)), other_units(random)
     one, other = solve_pumping(inputs), solve_pumping(in_other_units(inputs, units))
@@ -83,10 +77,8 @@ def test_pumping(random: Generator) -> None:
 
 @seeds(25, 1000)
 def test_load_distribution(random: Generator) -> None:
-    """All numbers of a load distribution scale with their units, except the stiffness of ISO 6336-1.
-
-    The formula of this stiffness contains the modulus of steel and a line load of 100 N/mm, both in fixed units.
-    """
+    """All numbers of a load distribution scale with their units, except the stiffness of ISO 6336-1."""
+    # The formula of this stiffness contains the modulus of steel and a line load of 100 N/mm, both in fixed units.
     inputs, units = draw_flank(random), other_units(random)
     one, other = solve_load_distribution(inputs), solve_load_distribution(in_other_units(inputs, units))
     without = rf"{ABSOLUTE}|^stiffness\.standard_"

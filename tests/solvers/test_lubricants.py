@@ -12,10 +12,8 @@ PAPER = Lubricant()
 
 
 def test_constants_of_the_paper() -> None:
-    """The constants of Xue Eq. 20 are A1 = 7.144, Z = 0.6011 and S0 = 1.305.
-
-    The formula as printed, S0 = beta/(A1 (t0 - 138)), would give S0 = 2.6e-5.
-    """
+    """The constants of Xue Eq. 20 are A1 = 7.144, Z = 0.6011 and S0 = 1.305."""
+    # The formula as printed, S0 = beta/(A1 (t0 - 138)), would give S0 = 2.6e-5.
     laws = PAPER.laws
     assert laws.a1 == pytest.approx(7.144, abs=5e-4)
     assert laws.pressure_exponent == pytest.approx(0.6011, abs=5e-5)
@@ -37,10 +35,8 @@ def test_viscosity_at_the_heart_of_the_contact() -> None:
 
 
 def test_density() -> None:
-    """The density follows the formula of Dowson and Higginson (Xue Eq. 19).
-
-    At 1 GPa it rises by the factor 1 + 0.6/(1 + 1.7). It falls by the fraction 0.00065 per kelvin.
-    """
+    """The density follows the formula of Dowson and Higginson (Xue Eq. 19)."""
+    # At 1 GPa it rises by the factor 1 + 0.6/(1 + 1.7). It falls by the fraction 0.00065 per kelvin.
     assert PAPER.density_at(1e9, 360.0) == pytest.approx(870.0 * (1 + 0.6 / 2.7), rel=1e-12)
     assert PAPER.density_at(0.0, 460.0) == pytest.approx(870.0 * (1 - 0.065), rel=1e-12)
     assert Lubricant(compressible=False).density_at(1e9, 460.0) == 870.0

@@ -126,11 +126,9 @@ def test_all_corners_converge_with_bearing_films_of_finite_width(every: int) -> 
 
 
 def test_corners_without_answer_are_told_and_left_out() -> None:
-    """One corner has a film too thin for its load.
-
-    Two further corners have both bearings of the pinion at one place. Only the remaining corner counts for the
-    extremes.
-    """
+    """One corner has a film too thin for its load."""
+    # Two further corners have both bearings of the pinion at one place. Only the remaining corner counts for the
+    # extremes.
     far = {"path": "pinion_shaft.bearings.1.position_mm", "values": [620, 220]}
     thin = {"path": FILM, "values": [CARRIES, TOO_THIN]}
     header, *points, extremes, end = lines_of(Corners, ranges=[far, thin], outputs=[K])
@@ -234,10 +232,8 @@ def test_a_design_without_start_ends_with_an_error() -> None:
 
 @pytest.mark.ci
 def test_a_trial_without_answer_is_worse_than_all() -> None:
-    """A thinner oil makes the journal more eccentric, until the film no longer carries the load.
-
-    The search for the largest eccentricity therefore also tries viscosities without a solution.
-    """
+    """A thinner oil makes the journal more eccentric, until the film no longer carries the load."""
+    # The search for the largest eccentricity therefore also tries viscosities without a solution.
     body = changed(CLOSED, {f"{BEARING}.width_mm": 20, f"{BEARING}.radial_clearance_um": 1000})
     viscosity = {"path": FILM[0], "min": 1e-5, "max": 0.02}
     _, *trials, end = lines_of(
@@ -395,11 +391,9 @@ EXAMPLE = changed(
 
 @pytest.mark.slow
 def test_tolerances_of_the_example() -> None:
-    """The 5, 50 and 95 % quantiles of face load factor, safety and total slope agree with the worked example.
-
-    The example and the test use different Latin hypercubes of 128 points. Both samples scatter, so that a quantile may
-    differ by 1.5 times the distance to its bound.
-    """
+    """The 5, 50 and 95 % quantiles of face load factor, safety and total slope agree with the worked example."""
+    # The example and the test use different Latin hypercubes of 128 points. Both samples scatter, so that a quantile
+    # may differ by 1.5 times the distance to its bound.
     clearances = {"pinion": 130, "wheel": 150}
     scatter = {
         "couplings.0.friction.coefficient": (0.05, 0.25),
@@ -435,11 +429,9 @@ def test_tolerances_of_the_example() -> None:
 
 @pytest.mark.slow
 def test_the_robust_design() -> None:
-    """The search raises the safety at the worst of 12 corners from 1.609 to 1.741, as in the worked example.
-
-    Before the search, the helix slope is 50 um, the crowning 4 um and the relief 15 um; the best values are 43.1, 7.8
-    and 12.9 um. The example does not state its second wall response; its numbers require a value between 0.9 and 1.
-    """
+    """The search raises the safety at the worst of 12 corners from 1.609 to 1.741, as in the worked example."""
+    # Before the search, the helix slope is 50 um, the crowning 4 um and the relief 15 um; the best values are 43.1, 7.8
+    # and 12.9 um. The example does not state its second wall response; its numbers require a value between 0.9 and 1.
     variables = [
         HELIX,
         {"path": "modifications.lead_crowning_um", "min": 0, "max": 20},

@@ -59,10 +59,8 @@ def test_order_of_cases_does_not_matter(random: np.random.Generator) -> None:
 
 @seeds(3, 60)
 def test_shares_are_weights(random: np.random.Generator) -> None:
-    """The shares of the cases add up to 1.
-
-    A mean over the operating time is the sum of the means of the single cases, each multiplied by its share.
-    """
+    """The shares of the cases add up to 1."""
+    # A mean over the operating time is the sum of the means of the single cases, each multiplied by its share.
     cases = draw_cases(random)
     end = spectrum(cases=cases)
     assert sum(case["share"] for case in end["cases"]) == pytest.approx(1.0, rel=1e-12)

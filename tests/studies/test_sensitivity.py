@@ -55,10 +55,8 @@ def test_an_output_goes_with_its_known_power_of_an_input(
 
 
 def test_every_item_of_a_list_is_moved() -> None:
-    """As long as all teeth carry load, an equal pitch error of all teeth changes nothing.
-
-    The slopes with respect to the errors of the single teeth therefore add up to zero.
-    """
+    """As long as all teeth carry load, an equal pitch error of all teeth changes nothing."""
+    # The slopes with respect to the errors of the single teeth therefore add up to zero.
     errors = [2.0, -1.0, 0.5, -0.5] * 5
     errors[7] = 3.0
     request = {
@@ -248,10 +246,8 @@ def test_lists_left_to_their_defaults_are_moved(turbo_unit: list[dict[str, Any]]
 
 
 def test_bore_offsets_move_by_what_a_bore_is_off(turbo_unit: list[dict[str, Any]]) -> None:
-    """The face load factor changes by +0.00118 per um of offset of the first pinion bore.
-
-    Two single requests, with offsets of 1 um up and down, gave this slope. Offsets of 100 um gave -0.00024 per um.
-    """
+    """The face load factor changes by +0.00118 per um of offset of the first pinion bore."""
+    # Two single requests, with offsets of 1 um up and down, gave this slope. Offsets of 100 um gave -0.00024 per um.
     (found,) = (
         line
         for line in turbo_unit
@@ -264,10 +260,8 @@ def test_bore_offsets_move_by_what_a_bore_is_off(turbo_unit: list[dict[str, Any]
 
 
 def test_a_step_that_is_too_large_says_so() -> None:
-    """If the first pinion bore is moved by 100 um, the slope is -0.00024 per um.
-
-    The slopes on both sides differ, and the study reports a kink.
-    """
+    """If the first pinion bore is moved by 100 um, the slope is -0.00024 per um."""
+    # The slopes on both sides differ, and the study reports a kink.
     path = "pinion_shaft.bearings.0.offset_um"
     vary = [{"path": f"{path}.1", "values": [-100, -50, 0, 50, 100]}]
     body = changed(study_of(UNIT, vary=vary, outputs=[FACE_LOAD_FACTOR]), INTEGRAL)

@@ -71,10 +71,8 @@ def test_lines() -> None:
 
 
 def test_one_case_without_tolerances() -> None:
-    """The probability is P = Phi((y - m) / s) for the output y and a limit with mean m and deviation s.
-
-    Without tolerances the probability is exact, so there is no standard error and no interval.
-    """
+    """The probability is P = Phi((y - m) / s) for the output y and a limit with mean m and deviation s."""
+    # Without tolerances the probability is exact, so there is no standard error and no interval.
     header, end = solved(coupling(limits=[above(COAXIAL, 3000, 400)]))
     (limit,) = end["limits"]
     mean = end["outputs"][COAXIAL]["mean"]
@@ -86,11 +84,9 @@ def test_one_case_without_tolerances() -> None:
 
 
 def test_a_linear_output_of_a_normal_input() -> None:
-    """The coaxial thrust is the coefficient of friction times a force, and is therefore normally distributed.
-
-    The probability that the thrust exceeds its limit is P = Phi((mu - m) / sqrt(s_y^2 + s^2)), with the mean mu and the
-    deviation s_y of the thrust, and the mean m and the deviation s of the limit.
-    """
+    """The coaxial thrust is the coefficient of friction times a force, and is therefore normally distributed."""
+    # The probability that the thrust exceeds its limit is P = Phi((mu - m) / sqrt(s_y^2 + s^2)), with the mean mu and
+    # the deviation s_y of the thrust, and the mean m and the deviation s of the limit.
     nominal = solved(coupling(cases=[{"set": {MU: 0.2}}]))[-1]["outputs"][COAXIAL]["mean"]
     deviation = 0.1 * nominal
     distances = (0.5, 2.0)
@@ -118,10 +114,8 @@ def test_the_interval_of_a_rare_event_is_said_to_cover_less() -> None:
 
 
 def test_a_limit_to_fall_short_of() -> None:
-    """If small outputs are bad, the case with the lowest output decides.
-
-    The probability is the upper tail of the distribution of the limit.
-    """
+    """If small outputs are bad, the case with the lowest output decides."""
+    # The probability is the upper tail of the distribution of the limit.
     cases = [{"name": "low", "set": {"operation.torque_n_m": 2000}}, {"name": "high", "set": {}}]
     limits = [below(COAXIAL, mean=4000, deviation=300), below(COAXIAL, value=4000), below(COAXIAL, value=1)]
     body = coupling(cases=cases, tolerances=friction(count=8, replicates=4), limits=limits, points=True)
@@ -169,10 +163,8 @@ def test_a_case_listed_twice_changes_nothing_but_who_decides() -> None:
 
 
 def test_the_same_machine_runs_every_case() -> None:
-    """The helix slope of a machine makes one case worse and the other case better.
-
-    A machine is therefore bad in one case or in the other case, but rarely in both.
-    """
+    """The helix slope of a machine makes one case worse and the other case better."""
+    # A machine is therefore bad in one case or in the other case, but rarely in both.
     cases = [{"set": {"modifications.in_plane_deviation_um": each}} for each in (80.0, -80.0)]
     tolerances = {"inputs": [SLOPE], "count": 16, "replicates": 4}
     limit = above(PRESSURE, 1690.0, 25.0)
@@ -194,10 +186,8 @@ def test_the_same_machine_runs_every_case() -> None:
 
 
 def test_a_draw_without_solution_is_never_lost() -> None:
-    """Teeth that are too high do not mesh.
-
-    Draws with such teeth are counted, and the probability lies between two bounds.
-    """
+    """Teeth that are too high do not mesh."""
+    # Draws with such teeth are counted, and the probability lies between two bounds.
     high = {"path": "gears.pinion.addendum", "distribution": "uniform", "min": 1.0, "max": 3.0}
     tolerances = {"inputs": [high], "count": 16, "replicates": 2}
     _, *points, end = solved(loads(cases=[{}], tolerances=tolerances, limits=[above(PRESSURE, 1e5, 1.0)], points=True))
@@ -212,10 +202,8 @@ def test_a_draw_without_solution_is_never_lost() -> None:
 
 
 def test_every_point_without_a_value_is_counted(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A machine without a value of the output counts as bad only in the upper bound of the probability.
-
-    The point may be refused, failed, without solution, or solved without this output.
-    """
+    """A machine without a value of the output counts as bad only in the upper bound of the probability."""
+    # The point may be refused, failed, without solution, or solved without this output.
     ends = [
         Point("ok", [1.0], []),
         Point("ok_with_warnings", [9.0], ["some"]),
@@ -316,10 +304,8 @@ def test_a_scuffing_temperature_that_scatters_is_limited_by_its_median() -> None
 
 
 def test_a_tolerance_that_the_model_does_not_use_is_said() -> None:
-    """The stage computes its friction from the oil.
-
-    A tolerance of the coefficient of friction therefore changes nothing, and a note says so.
-    """
+    """The stage computes its friction from the oil."""
+    # A tolerance of the coefficient of friction therefore changes nothing, and a note says so.
     body = scuffing()
     drawn = {"path": "friction_coefficient", "distribution": "lognormal", "median": 0.05, "factor": 1.3}
     body["tolerances"]["inputs"].append(drawn)

@@ -65,10 +65,8 @@ def test_risk_in_words(probability: float, risk: str) -> None:
 
 
 def test_replicates_give_the_error() -> None:
-    """The replicates have the means 1, 2, 3 and 6, whose deviation is sqrt(14/3).
-
-    The 95 % quantile of t with 3 degrees of freedom is 2.3533634.
-    """
+    """The replicates have the means 1, 2, 3 and 6, whose deviation is sqrt(14/3)."""
+    # The 95 % quantile of t with 3 degrees of freedom is 2.3533634.
     found = mean_over_replicates(np.array([[0.0, 2.0], [1.0, 3.0], [3.0, 3.0], [5.0, 7.0]]))
     assert found.mean == 3.0
     assert found.standard_error == pytest.approx(sqrt(14 / 3) / 2)
@@ -86,11 +84,9 @@ def test_no_event_has_a_one_sided_bound() -> None:
 
 
 def test_few_events_have_the_interval_of_their_count() -> None:
-    """The interval of few events has the limits of Clopper and Pearson.
-
-    The examples are 5 events in 1024 draws, and 3 events in each of 8 replicates. Sums of binomial probabilities check
-    the limits.
-    """
+    """The interval of few events has the limits of Clopper and Pearson."""
+    # The examples are 5 events in 1024 draws, and 3 events in each of 8 replicates. Sums of binomial probabilities
+    # check the limits.
     few = np.zeros((8, 128))
     few[:5, 0] = 1.0
     equal = np.zeros((8, 128))
@@ -108,10 +104,8 @@ def test_few_events_have_the_interval_of_their_count() -> None:
 
 
 def test_an_unsolved_draw_is_never_lost() -> None:
-    """Two of eight machines exceed the limit, and a third machine has no solution in one case.
-
-    The probability is 2/8 if the third machine is good, and 3/8 if it is bad.
-    """
+    """Two of eight machines exceed the limit, and a third machine has no solution in one case."""
+    # The probability is 2/8 if the third machine is good, and 3/8 if it is bad.
     outputs = np.array(
         [[[1.0, 0.0], [0.0, np.nan], [0.0, 0.0], [0.0, 0.0]], [[1.0, 0.0], [0.0, 0.0], [0.0, 0.0], [0.0, 0.0]]]
     )
@@ -134,10 +128,8 @@ def test_what_is_solved_of_a_machine_counts() -> None:
 
 
 def test_cases_that_move_oppositely() -> None:
-    """One input makes one case better and the other case worse.
-
-    A machine is bad if one of its cases is bad; both cases are hardly ever bad at once.
-    """
+    """One input makes one case better and the other case worse."""
+    # A machine is bad if one of its cases is bad; both cases are hardly ever bad at once.
     x = norm.ppf((np.arange(4096) + 0.5) / 4096).reshape(1, -1)
     outputs, limit = np.stack([x, -x], axis=-1), Limit("above", 1.5, 0.4)
     one, other = (of_case(outputs[..., case], limit).probability for case in (0, 1))
@@ -195,10 +187,8 @@ class TestDistributions:
         assert cut(scatter, FRICTION).cut_off == pytest.approx(6.334248e-5)
 
     def test_cut_at_the_end_of_the_field(self) -> None:
-        """The range of friction is 0 to 2.
-
-        The parts of the distribution below 0, which is a tenth, and above 2 are cut off.
-        """
+        """The range of friction is 0 to 2."""
+        # The parts of the distribution below 0, which is a tenth, and above 2 are cut off.
         scatter = Normal(path="x", distribution="normal", mean=1.281551566, deviation=1.0)
         assert 0.0 <= self.value(scatter, 0.0) < 1e-8
         assert cut(scatter, FRICTION).cut_off == pytest.approx(0.1 + norm.sf(2.0 - 1.281551566))
@@ -222,10 +212,8 @@ class TestDistributions:
 
     @pytest.mark.parametrize("deviation", [1e-300, 1e-3, 1.0, 1e6, 1e8, 1e10, 1e300])
     def test_values_have_six_digits_or_are_refused(self, deviation: float) -> None:
-        """Inside a narrow range, a wide normal distribution is nearly uniform.
-
-        The study refuses a distribution that is so wide that rounding would spoil the values inside the range.
-        """
+        """Inside a narrow range, a wide normal distribution is nearly uniform."""
+        # The study refuses a distribution that is so wide that rounding would spoil the values inside the range.
         scatter = {"path": "friction.coefficient", "distribution": "normal", "mean": 0.2, "deviation": deviation}
         body = study_of("pahl-axial-displacement", sample={"count": 4096, "seed": 3, "inputs": [scatter]})
         if deviation > 1e8:
@@ -269,13 +257,11 @@ The shares apply at limits 0.5, 1, 1.5, 2 and 2.5 deviations from the mean.
 
 
 def test_what_400_seeds_can_tell() -> None:
-    """The number of intervals that hold the truth is binomial: 400 seeds measure 90 % to 1.5 % (one deviation).
-
-    For Latin hypercubes the bounds are 85 and 95 %. At one limit, a true coverage of 90 % gives a share outside these
-    bounds in 0.07 % of all tests, and a true coverage of 80 % gives a share inside in 0.6 %. For Sobol points of one
-    tolerance the lower bound is 80 %, because their means are skewed. A true coverage of 85 % gives a share below this
-    bound in 0.3 % of all tests.
-    """
+    """The number of intervals that hold the truth is binomial: 400 seeds measure 90 % to 1.5 % (one deviation)."""
+    # For Latin hypercubes the bounds are 85 and 95 %. At one limit, a true coverage of 90 % gives a share outside these
+    # bounds in 0.07 % of all tests, and a true coverage of 80 % gives a share inside in 0.6 %. For Sobol points of one
+    # tolerance the lower bound is 80 %, because their means are skewed. A true coverage of 85 % gives a share below
+    # this bound in 0.3 % of all tests.
     outside = binom.cdf(0.85 * 400 - 1, 400, 0.90) + binom.sf(0.95 * 400, 400, 0.90)
     assert outside == pytest.approx(7.3e-4, rel=0.01)
     assert binom.sf(0.85 * 400 - 1, 400, 0.80) == pytest.approx(6.1e-3, rel=0.01)
@@ -286,12 +272,10 @@ def test_what_400_seeds_can_tell() -> None:
 @pytest.mark.parametrize("tolerances", [1, 6])
 @pytest.mark.parametrize("method", COVERED)
 def test_the_interval_covers_the_truth(method: Method, tolerances: int) -> None:
-    """The intervals hold the true probability that a linear output of normal inputs exceeds a normal limit.
-
-    The true probability is P = Phi((mu - m) / sqrt(s_y^2 + s^2)). At a probability of 0.13 % the means of the
-    replicates are skewed. The 90 % intervals then hold the truth in only 75 to 82 % of all studies. A note of the study
-    says so.
-    """
+    """The intervals hold the true probability that a linear output of normal inputs exceeds a normal limit."""
+    # The true probability is P = Phi((mu - m) / sqrt(s_y^2 + s^2)). At a probability of 0.13 % the means of the
+    # replicates are skewed. The 90 % intervals then hold the truth in only 75 to 82 % of all studies. A note of the
+    # study says so.
     least, most = COVERED[method]
     *usual, rare = coverage(method, tolerances, 0.5).values()
     for each in usual:
@@ -314,10 +298,8 @@ def test_a_wrong_interval_is_noticed(monkeypatch: pytest.MonkeyPatch, method: Me
 @pytest.mark.parametrize("tolerances", [1, 6])
 @pytest.mark.parametrize("method", ["sobol", "latin_hypercube"])
 def test_the_interval_of_a_fixed_limit_covers_the_truth(method: Method, tolerances: int) -> None:
-    """At least 85 % of the intervals hold the truth, even if the replicates do not scatter.
-
-    The draws of one tolerance are stratified. At a probability of 2.3 %, half of the studies therefore count 3 of 128
-    draws in every replicate.
-    """
+    """At least 85 % of the intervals hold the truth, even if the replicates do not scatter."""
+    # The draws of one tolerance are stratified. At a probability of 2.3 %, half of the studies therefore count 3 of 128
+    # draws in every replicate.
     for each in coverage(method, tolerances, 0.0).values():
         assert each.covered >= 0.85, each

@@ -34,12 +34,10 @@ def unchanged(_: str, values: FloatArray, __: str | None) -> FloatArray:
 
 
 def leaves(answer: Any) -> dict[str, Leaf]:
-    """Return every declared value of an answer. The keys are the dotted names of the values.
-
-    The scale of a number is the largest absolute value with the same unit in the same part of the answer, because a
-    difference of large numbers is no more exact than these numbers. The scale of a number without a unit is at least 1,
-    the size of a share.
-    """
+    """Return every declared value of an answer. The keys are the dotted names of the values."""
+    # The scale of a number is the largest absolute value with the same unit in the same part of the answer, because a
+    # difference of large numbers is no more exact than these numbers. The scale of a number without a unit is at least
+    # 1, the size of a share.
     found: dict[str, Leaf] = {}
     _walk(answer, "", None, found)
     scales: dict[tuple[str, str | None], float] = {}

@@ -57,12 +57,10 @@ def numbers(result: CouplingResult) -> dict[str, tuple[float, float]]:
 
 
 def check_power_and_moments(random: Generator) -> None:
-    """Check the friction power, the bending moment on the hub, the torque, and the lateral force on the sleeve.
-
-    The friction power is the power of the friction moment plus the power of the thrust. If the kinematics are
-    tangential, the bending moment follows from its two components. The tooth forces together transmit the torque. The
-    lateral forces of the teeth on a floating sleeve cancel.
-    """
+    """Check the friction power, the bending moment on the hub, the torque, and the lateral force on the sleeve."""
+    # The friction power is the power of the friction moment plus the power of the thrust. If the kinematics are
+    # tangential, the bending moment follows from its two components. The tooth forces together transmit the torque. The
+    # lateral forces of the teeth on a floating sleeve cancel.
     inputs = random_inputs(random)
     alone = changed(inputs, {"operation.arrangement": "single"})
     result, operation = solve(alone), inputs.operation
@@ -93,13 +91,11 @@ def check_resolution(random: Generator) -> None:
 
 
 def check_resolution_of(inputs: CouplingInputs) -> None:
-    """Check that no summary number changes by more than 1 % if every resolution is doubled.
-
-    Thrust and moments are small sums of friction forces that nearly cancel. If teeth come under load and lift off, the
-    quadrature has an error of up to 6e-5 of the largest thrust or moment that friction could hold. This value comes
-    from 2600 random couplings; the error does not shrink with the thrust. Thrust and moments may therefore change by
-    1 % plus 1e-4 of this limit.
-    """
+    """Check that no summary number changes by more than 1 % if every resolution is doubled."""
+    # Thrust and moments are small sums of friction forces that nearly cancel. If teeth come under load and lift off,
+    # the quadrature has an error of up to 6e-5 of the largest thrust or moment that friction could hold. This value
+    # comes from 2600 random couplings; the error does not shrink with the thrust. Thrust and moments may therefore
+    # change by 1 % plus 1e-4 of this limit.
     before = numbers(solve(inputs))
     with finer(kinematics, 2, "_PITCH_NODES", "_LEAST_ROTOR_POSITIONS"):
         after = numbers(solve(inputs))
@@ -112,11 +108,9 @@ def check_orbit_resolution(random: Generator) -> None:
 
 
 def check_orbit_resolution_of(inputs: CouplingInputs) -> None:
-    """Check that twice as many rotor angles hardly change the orbit of the sleeve.
-
-    The largest displacement may change by 1 %, and a harmonic of the inertia force by 2 % of the largest harmonic. An
-    orbit that is not solved, or that has the notice `orbit_resolution`, is not checked.
-    """
+    """Check that twice as many rotor angles hardly change the orbit of the sleeve."""
+    # The largest displacement may change by 1 %, and a harmonic of the inertia force by 2 % of the largest harmonic. An
+    # orbit that is not solved, or that has the notice `orbit_resolution`, is not checked.
     try:
         before = solve_orbit(inputs)
         with finer(kinematics, 2, "_LEAST_ROTOR_POSITIONS"):
@@ -179,12 +173,10 @@ def varied(inputs: CouplingInputs, group: str, name: str, factor: float) -> Coup
 
 
 def check_no_jump(random: Generator) -> None:
-    """Check that no number jumps while one input is changed in small steps.
-
-    A change is suspicious if it is more than ten times as large as the changes at the neighbouring steps. Such a change
-    must shrink to less than a tenth if the step is halved many times. Only numbers that depend on the oil film may
-    jump, and only if the contact leaves the tooth.
-    """
+    """Check that no number jumps while one input is changed in small steps."""
+    # A change is suspicious if it is more than ten times as large as the changes at the neighbouring steps. Such a
+    # change must shrink to less than a tenth if the step is halved many times. Only numbers that depend on the oil film
+    # may jump, and only if the contact leaves the tooth.
     inputs = random_inputs(random)
     choices = [(group, name) for group, names in SCANNED.items() for name in names]
     if inputs.coupling.pitch_errors is not None:

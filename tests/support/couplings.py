@@ -66,10 +66,8 @@ def random_coupling(random: Generator, *, errors: bool | None = None) -> Couplin
 
 
 def random_inputs(random: Generator, *, errors: bool | None = None, single: bool = False) -> CouplingInputs:
-    """Draw a gear coupling and an operating point.
-
-    The mean tooth pressure is 0.5 to 30 N/mm2, and the speed at the pitch circle is 1 to 150 m/s.
-    """
+    """Draw a gear coupling and an operating point."""
+    # The mean tooth pressure is 0.5 to 30 N/mm2, and the speed at the pitch circle is 1 to 150 m/s.
     coupling = random_coupling(random, errors=errors)
     radius = coupling.module * coupling.teeth / 2.0
     mean_force = spread(random, 0.5e6, 30e6) * coupling.tooth_height * coupling.face_width

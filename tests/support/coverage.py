@@ -38,10 +38,8 @@ class Coverage(NamedTuple):
 
 @cache
 def outputs_of(method: Method, tolerances: int, count: int, replicates: int, studies: int) -> list[FloatArray]:
-    """Return the outputs (replicates, draws) of each of the studies. The seeds of the studies count from 0.
-
-    The outputs are deviations from the mean output, divided by the standard deviation of the output.
-    """
+    """Return the outputs (replicates, draws) of each of the studies. The seeds of the studies count from 0."""
+    # The outputs are deviations from the mean output, divided by the standard deviation of the output.
     scatter = [Normal(path=str(each), distribution="normal", mean=1.0, deviation=0.1) for each in range(tolerances)]
     found = []
     for seed in range(studies):

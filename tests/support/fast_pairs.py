@@ -9,10 +9,8 @@ KINDS = ("mineral", "pao", "ester", "polyglycol")
 
 
 def random_request(random: np.random.Generator) -> dict[str, Any]:
-    """Draw the request for a gear pair with its oil and some fields of its cooling.
-
-    The pitch-line velocity is 2 to 180 m/s.
-    """
+    """Draw the request for a gear pair with its oil and some fields of its cooling."""
+    # The pitch-line velocity is 2 to 180 m/s.
     module, teeth = random.uniform(1, 8), (int(random.integers(18, 50)), int(random.integers(20, 140)))
     helix = float(random.choice([0.0, random.uniform(5, 30)]))
     diameter = module * teeth[0] / np.cos(np.radians(helix))
@@ -45,10 +43,8 @@ def random_request(random: np.random.Generator) -> dict[str, Any]:
 
 
 def random_cooling(random: np.random.Generator, power: float) -> dict[str, Any]:
-    """Draw values for the fields of a cooling, and keep each of the fields with a probability of 0.3.
-
-    The oil flow scatters widely about 0.012 l/min per kW of `power` [kW].
-    """
+    """Draw values for the fields of a cooling, and keep each of the fields with a probability of 0.3."""
+    # The oil flow scatters widely about 0.012 l/min per kW of `power` [kW].
     choices: dict[str, Any] = {
         "gear_flow_l_per_min": float(np.clip(power * 0.012 * np.exp(random.normal(0, 1.5)), 0.1, 5000)),
         "flow_rise_k": random.uniform(3, 50),

@@ -50,10 +50,8 @@ def draw_gears(rng: np.random.Generator) -> GearPairInputs:
 
 
 def draw_flank(rng: np.random.Generator) -> LoadDistributionInputs:
-    """Draw a flank under load, with modifications of up to a tenth of the normal module or without modifications.
-
-    The highest load per size of the gear is about 3000 times the lowest.
-    """
+    """Draw a flank under load, with modifications of up to a tenth of the normal module or without modifications."""
+    # The highest load per size of the gear is about 3000 times the lowest.
     gears = draw_gears(rng)
     amplitude = gears.normal_module * 10 ** rng.uniform(-4, -1)
     names = ("profile_crowning", "lead_crowning", "tip_relief", "root_relief", "end_relief")
@@ -114,11 +112,9 @@ def check_books(rng: np.random.Generator) -> None:
 
 
 def check_books_of(inputs: LoadDistributionInputs) -> None:
-    """Check the force, the friction power and the maxima of a result against the line loads of the same result.
-
-    The force and the friction power must agree with a quadrature of the line loads. The stated maxima of
-    line load, pressure and face load may not be noticeably smaller than the values at many points.
-    """
+    """Check the force, the friction power and the maxima of a result against the line loads of the same result."""
+    # The force and the friction power must agree with a quadrature of the line loads. The stated maxima of line load,
+    # pressure and face load may not be noticeably smaller than the values at many points.
     result = solve_load_distribution(inputs)
     balance, plane = result.balance, result.path_of_contact.plane
     y = (np.arange(800) + 0.5) / 800 * plane.face_width
@@ -179,10 +175,8 @@ def scans(inputs: LoadDistributionInputs) -> dict[str, tuple[float, float]]:
 
 
 def check_no_jump(rng: np.random.Generator) -> None:
-    """Check that no summary number jumps while one input is changed in small steps.
-
-    A change that stands out must shrink to at most 1 % if the step becomes smaller.
-    """
+    """Check that no summary number jumps while one input is changed in small steps."""
+    # A change that stands out must shrink to at most 1 % if the step becomes smaller.
     inputs = draw_flank(rng)
     ranges = scans(inputs)
     name = str(rng.choice(list(ranges)))
@@ -201,10 +195,9 @@ def check_no_jump(rng: np.random.Generator) -> None:
 
 
 def _steps_out_of_line(found: list[dict[str, tuple[float, float]] | None]) -> dict[str, int]:
-    """Return, for each suspicious number, the index of the largest step in its series of values.
-
-    A number is suspicious if this step is more than 1 %, and more than ten times the median of the neighbouring steps.
-    """
+    """Return, for each suspicious number, the index of the largest step in its series of values."""
+    # A number is suspicious if this step is more than 1 %, and more than ten times the median of the neighbouring
+    # steps.
     suspects = {}
     answers = [one or {} for one in found]
     for number in {name for one in answers for name in one}:

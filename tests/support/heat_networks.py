@@ -46,10 +46,8 @@ def gear(
 
 
 def operation(bearing: JournalBearing, load: float, speed: float) -> Operation:
-    """Return a function of the viscosity [Pa s] for a plain bearing under a fixed load [N].
-
-    The function returns the friction power [W] and the side leakage [m^3/s] of the short bearing.
-    """
+    """Return a function of the viscosity [Pa s] for a plain bearing under a fixed load [N]."""
+    # The function returns the friction power [W] and the side leakage [m^3/s] of the short bearing.
 
     def operate(viscosity: float) -> tuple[float, float]:
         return friction_and_leakage(replace(bearing, viscosity=viscosity), load, speed, "short")
@@ -102,11 +100,9 @@ CASED = replace(UNIT, casing=CasingWalls(6.0, 50.0, 12.0, 25.0 + CELSIUS))
 
 
 def random_network(random: np.random.Generator, *, unit: bool) -> Network:
-    """Draw a gear pair or a gear unit of a realistic design.
-
-    The pitch-line velocity is 3 to 180 m/s. The mesh loses 1 to 8 W per kW of power. The losses of the gears warm the
-    oil by 5 to 40 K.
-    """
+    """Draw a gear pair or a gear unit of a realistic design."""
+    # The pitch-line velocity is 3 to 180 m/s. The mesh loses 1 to 8 W per kW of power. The losses of the gears warm the
+    # oil by 5 to 40 K.
     module, helix = random.uniform(1e-3, 10e-3), radians(random.uniform(0.0, 30.0))
     teeth = (int(random.integers(17, 45)), int(random.integers(20, 180)))
     radii = [module / cos(helix) * number / 2 for number in teeth]

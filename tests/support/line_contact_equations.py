@@ -30,89 +30,45 @@ Numbers = NDArray[Any]
 
 
 class Columns(NamedTuple):
-    """Shear and flow in the n columns of the film. A column has m intervals and k nodes across the film.
+    """Shear and flow in the n columns of the film, with m intervals and k nodes across it."""
 
-    Three fields have one value per interval (n, m): `density` [kg/m^3], the shear stress `stress` [Pa] and the shear
-    rate `rate` [1/s]. Three fields have one value per column (n,): `mid_stress`, the shear stress half way across the
-    film [Pa], and the flow coefficients `a` [s/m^2] and `b` [kg/(m^2 s)]. Two fields have one value per node across the
-    film (n, k): `couette`, the stream function of the flow without pressure gradient [kg/(s m)], and `poiseuille`, the
-    profile of the flow due to the pressure gradient. This profile rises from 0 at surface 1 to 1 at surface 2.
-    """
-
-    density: Numbers
-    stress: Numbers
-    rate: Numbers
-    mid_stress: Numbers
-    a: Numbers
-    b: Numbers
-    couette: Numbers
-    poiseuille: Numbers
+    density: Numbers  # (n, m) kg/m^3
+    stress: Numbers  # (n, m) Pa
+    rate: Numbers  # (n, m) 1/s
+    mid_stress: Numbers  # (n,) Pa, half way across the film
+    a: Numbers  # (n,) flow coefficient, s/m^2
+    b: Numbers  # (n,) flow coefficient, kg/(m^2 s)
+    couette: Numbers  # (n, k) stream function without pressure gradient, kg/(s m)
+    poiseuille: Numbers  # (n, k) profile of the pressure flow, from 0 at surface 1 to 1 at surface 2
 
 
 class Carried(NamedTuple):
-    """Flow quantities in the heat balance. A Newton step holds these quantities fixed.
+    """Flow quantities of the heat balance that a Newton step holds and that are computed again after it."""
 
-    After the step the quantities are computed again. `psi` (n, k) is the stream function [kg/(s m)]. `vartheta` (n,) is
-    the fraction of the gap that oil fills. `density` (n, m) is the density of the oil [kg/m^3]; the heat of compression
-    is computed from this density.
-    """
-
-    psi: Numbers
-    vartheta: Numbers
-    density: Numbers
+    psi: Numbers  # (n, k) stream function, kg/(s m)
+    vartheta: Numbers  # (n,) fraction of the gap that oil fills
+    density: Numbers  # (n, m) kg/m^3, for the heat of compression
 
 
 class Residual(NamedTuple):
-    """Residuals of the equations for mass (n,), load and heat (n, k).
+    """Residuals of mass, load and heat."""
 
-    The residual of mass is divided by the flux scale. At nodes where the pressure is prescribed as zero, this residual
-    is P = p/p_H. The residual of heat is in W/m^2. At nodes where the temperature is prescribed, this residual is the
-    deviation from the prescribed temperature [K].
-    """
-
-    mass: Numbers
+    mass: Numbers  # (n,) over the flux scale; P = p/p_H where the pressure is prescribed as zero
     load: Any
-    heat: Numbers
+    heat: Numbers  # (n, k) W/m^2; deviation [K] where the temperature is prescribed
 
 
 def density(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
-    """Return the density of the oil (Eq. 19).
-
-    Parameters
-    ----------
-    laws : FluidLaws
-        Constants of the oil's laws.
-    p : (...) array
-        Pressure [Pa]; a negative pressure counts as zero.
-    t : (...) array
-        Temperature [K].
-
-    Returns
-    -------
-    (...) array
-        Density [kg/m^3].
-    """
+    """Return the density of the oil (Eq. 19) [kg/m^3]. `p`: pressure [Pa]; a negative pressure counts as zero."""
     p = np.where(p.real > 0.0, p, 0.0)
     compression = laws.pressure_density * p / (1.0 + 1.7e-9 * p)
     return np.asarray(laws.density * (1.0 + compression - laws.thermal_expansion * (t - laws.reference_temperature)))
 
 
 def viscosity(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
-    """Return the viscosity of the oil after Roelands or Barus (Eq. 20).
+    """Return the viscosity of the oil after Roelands or Barus (Eq. 20) [Pa s].
 
-    Parameters
-    ----------
-    laws : FluidLaws
-        Constants of the oil's laws.
-    p : (...) array
-        Pressure [Pa]; a negative pressure counts as zero.
-    t : (...) array
-        Temperature [K].
-
-    Returns
-    -------
-    (...) array
-        Viscosity [Pa s].
+    `p`: pressure [Pa]; a negative pressure counts as zero.
     """
     p = np.where(p.real > 0.0, p, 0.0)
     if laws.roelands == 0:
@@ -126,48 +82,17 @@ def viscosity(laws: FluidLaws, p: Numbers, t: Numbers) -> Numbers:
 
 
 def effective_fluidity(problem: Problem, tau: Numbers, eta: Numbers) -> Numbers:
-    """Return the effective fluidity 1/eta*, which is the shear rate divided by the stress (Eqs. E4, E5).
-
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    tau : (n, m) array
-        Shear stress in every interval [Pa].
-    eta : (n, m) array
-        Viscosity in every interval [Pa s].
-
-    Returns
-    -------
-    (n, m) array
-        Effective fluidity [1/(Pa s)].
-    """
+    """Return the effective fluidity 1/eta*, which is the shear rate divided by the stress (Eqs. E4, E5)."""
     if problem.rheology == NEWTONIAN:
         return np.asarray(1.0 / eta)
     return np.asarray(_sinh_ratio(tau / problem.eyring_stress) / eta)
 
 
 def mid_film_stress(problem: Problem, eta: Numbers, g: Numbers, h: Numbers) -> Numbers:
-    """Return the shear stress half way across the film for the sliding speed u2 - u1.
+    """Return the shear stress half way across the film for the sliding speed u2 - u1 [Pa].
 
     Eq. E6. The integral of the shear rate across the film must equal the sliding speed. For a Newtonian oil this
     integral is linear in the stress.
-
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    eta : (n, m) array
-        Viscosity in every interval [Pa s].
-    g : (n,) array
-        G = h dp/dx [Pa].
-    h : (n,) array
-        Film thickness [m].
-
-    Returns
-    -------
-    (n,) array
-        Stress [Pa].
     """
     zeta, dz = _intervals(eta.shape[1])
     slide = (problem.speed_2 - problem.speed_1) / h
@@ -187,24 +112,6 @@ def columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers, t: Numbers) ->
 
     Eq. E7.1. The integrals across the film use one value per interval, at the middle of the interval. The temperature
     there is the mean of the temperatures at both ends of the interval.
-
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    p : (n,) array
-        Pressure [Pa].
-    g : (n,) array
-        G = h dp/dx [Pa].
-    h : (n,) array
-        Film thickness [m].
-    t : (n, k) array
-        Temperature [K].
-
-    Returns
-    -------
-    Columns
-        Density, stress and rate of every interval, flow coefficients and stream functions.
     """
     zeta, dz = _intervals(t.shape[1] - 1)
     t_mid = 0.5 * (t[:, 1:] + t[:, :-1])
@@ -232,23 +139,7 @@ def columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers, t: Numbers) ->
 def uniform_columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers) -> tuple[Numbers, Numbers]:
     """Return the flow coefficients of a film at the inlet temperature (Eq. E7.2).
 
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    p : (n,) array
-        Pressure [Pa].
-    g : (n,) array
-        G = h dp/dx [Pa].
-    h : (n,) array
-        Film thickness [m].
-
-    Returns
-    -------
-    a : (n,) array
-        Flow coefficient A [s/m^2].
-    b : (n,) array
-        Flow coefficient B [kg/(m^2 s)].
+    Returns `a`: flow coefficient A [s/m^2]; `b`: flow coefficient B [kg/(m^2 s)].
     """
     inlet = np.full(p.shape, problem.inlet)
     rho, eta = density(problem.laws, p, inlet), viscosity(problem.laws, p, inlet)
@@ -268,27 +159,9 @@ def uniform_columns(problem: Problem, p: Numbers, g: Numbers, h: Numbers) -> tup
 
 
 def face_fluxes(grid: Grid, pressure: Numbers, film: Numbers, a: Numbers, b: Numbers, scale: float) -> Numbers:
-    """Return the mass flux B H - A H^3 dP/dX through the faces between nodes (Eq. E13).
+    """Return the mass flux B H - A H^3 dP/dX through the faces between nodes (Eq. E13) [kg/(m^2 s)].
 
-    Parameters
-    ----------
-    grid : Grid
-        Mesh along the contact.
-    pressure : (n,) array
-        P = p/p_H [-].
-    film : (n,) array
-        H = h R/b^2 [-].
-    a : (n,) array
-        Flow coefficient A [s/m^2].
-    b : (n,) array
-        Flow coefficient B [kg/(m^2 s)].
-    scale : float
-        Factor p_H b^3/R^2 [Pa m]; the product of A and this factor has the units of B.
-
-    Returns
-    -------
-    (n - 1,) array
-        Mass flux divided by b^2/R [kg/(m^2 s)].
+    `b`: flow coefficient B [kg/(m^2 s)]. Returns mass flux divided by b^2/R [kg/(m^2 s)].
     """
     dx, d = np.diff(grid.x), b * film
     ratio = np.concatenate([[-0.5], 0.5 * dx[1:] / dx[:-1]])
@@ -299,25 +172,9 @@ def face_fluxes(grid: Grid, pressure: Numbers, film: Numbers, a: Numbers, b: Num
 
 
 def balance_of_mass(pressure: Numbers, cavitated: BoolArray, flux: Numbers) -> Numbers:
-    """Return the residuals of the balance of mass at the nodes (Eq. E7).
-
-    The residual is the outflow of a node minus the inflow. At both ends and in the broken film the pressure is
-    prescribed as zero; the residual of such a node is P.
-
-    Parameters
-    ----------
-    pressure : (n,) array
-        P = p/p_H [-].
-    cavitated : (n,) array of bool
-        Nodes of broken film.
-    flux : (n - 1,) array
-        Mass flux through the faces between nodes, divided by the flux scale [-].
-
-    Returns
-    -------
-    (n,) array
-        Residual [-].
-    """
+    """Return the residuals of the balance of mass at the nodes (Eq. E7) [-]."""
+    # The residual is the outflow of a node minus the inflow. At both ends and in the broken film the pressure is
+    # prescribed as zero; the residual of such a node is P.
     mass = pressure.astype(flux.dtype)
     inside = np.flatnonzero(~cavitated[1:-1]) + 1
     mass[inside] = flux[inside] - flux[inside - 1]
@@ -325,46 +182,15 @@ def balance_of_mass(pressure: Numbers, cavitated: BoolArray, flux: Numbers) -> N
 
 
 def film_thickness(grid: Grid, pressure: Numbers, separation: Any) -> Numbers:
-    """Return the film thickness H = H0 + X^2/2 + K P (Eq. 21).
-
-    K is the matrix `grid.deflection`.
-
-    Parameters
-    ----------
-    grid : Grid
-        Mesh along the contact.
-    pressure : (n,) array
-        P = p/p_H [-].
-    separation : number
-        H0 [-].
-
-    Returns
-    -------
-    (n,) array
-        H = h R/b^2 [-].
-    """
+    """Return the film thickness H = H0 + X^2/2 + K P (Eq. 21) [-]. K is the matrix `grid.deflection`."""
     return np.asarray(separation + 0.5 * grid.x**2 + grid.deflection @ pressure)
 
 
 def pressure_gradient(grid: Grid, pressure: Numbers, cavitated: BoolArray) -> Numbers:
-    """Return dP/dX at the nodes.
+    """Return dP/dX at the nodes [-].
 
     Eq. E14: the difference is one-sided at the inlet and at the last node of the full film, zero in the broken film,
     and central at all other nodes.
-
-    Parameters
-    ----------
-    grid : Grid
-        Mesh along the contact.
-    pressure : (n,) array
-        P = p/p_H [-].
-    cavitated : (n,) array of bool
-        Nodes of broken film.
-
-    Returns
-    -------
-    (n,) array
-        Gradient [-].
     """
     n = grid.x.size
     node = np.arange(n)
@@ -379,18 +205,6 @@ def balance_of_load(grid: Grid, pressure: Numbers) -> Any:
     """Return the residual of the load: the integral of P, minus pi/2 (Eq. 22).
 
     If this residual is zero, the pressure carries the load.
-
-    Parameters
-    ----------
-    grid : Grid
-        Mesh along the contact.
-    pressure : (n,) array
-        P = p/p_H [-].
-
-    Returns
-    -------
-    number
-        Residual [-].
     """
     return grid.weights @ pressure - 0.5 * np.pi
 
@@ -398,30 +212,8 @@ def balance_of_load(grid: Grid, pressure: Numbers) -> Any:
 def carried_heat(
     problem: Problem, pressure: Numbers, film: Numbers, cavitated: BoolArray, flux: Numbers, at: Columns
 ) -> Carried:
-    """Return the flow quantities in the heat balance (Eqs. E8.1, E8.2).
-
-    The mass flow is the same in all columns. It equals the flux at the largest pressure.
-
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    pressure : (n,) array
-        P = p/p_H [-].
-    film : (n,) array
-        H = h R/b^2 [-].
-    cavitated : (n,) array of bool
-        Nodes of broken film.
-    flux : (n - 1,) array
-        Mass flux through the faces between nodes [kg/(s m)].
-    at : Columns
-        The columns of the film.
-
-    Returns
-    -------
-    Carried
-        Stream function, fraction of the gap that oil fills, and density.
-    """
+    """Return the flow quantities in the heat balance (Eqs. E8.1, E8.2)."""
+    # The mass flow is the same in all columns. It equals the flux at the largest pressure.
     m_dot = flux[pressure.argmax()]
     psi = at.couette + (m_dot - at.couette[:, -1:]) * at.poiseuille
     for i in np.flatnonzero(cavitated):
@@ -436,29 +228,8 @@ def balance_of_heat(
     """Return the heat that every cell loses minus the heat generated in the cell.
 
     Eqs. E8, E15. A cell reaches half way to the neighbouring nodes, along the contact and across the film. The cells at
-    the surfaces are half cells; the residual of a half cell is the heat that comes out of the solid.
-
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    grid : Grid
-        Mesh along the contact.
-    g : (n,) array
-        G = h dp/dx [Pa].
-    h : (n,) array
-        Film thickness [m].
-    t : (n, k) array
-        Temperature [K].
-    at : Columns
-        The columns of the film.
-    carried : Carried
-        Flow quantities in the heat balance.
-
-    Returns
-    -------
-    (n, k) array
-        Residual [W/m^2]; zero in the first column, whose temperatures are given.
+    the surfaces are half cells; the residual of a half cell is the heat that comes out of the solid. Returns residual
+    [W/m^2]; zero in the first column, whose temperatures are given.
     """
     n, k = t.shape
     m = k - 1
@@ -486,23 +257,7 @@ def balance_of_heat(
 def surface_temperatures(problem: Problem, grid: Grid, q_1: Numbers, q_2: Numbers) -> tuple[Numbers, Numbers]:
     """Return the temperatures of both surfaces by the formula for moving line sources of heat (Eq. 24).
 
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    grid : Grid
-        Mesh along the contact.
-    q_1 : (n,) array
-        Heat flux into surface 1 [W/m^2].
-    q_2 : (n,) array
-        Heat flux into surface 2 [W/m^2].
-
-    Returns
-    -------
-    surface_1 : (n,) array
-        Temperature of surface 1 [K].
-    surface_2 : (n,) array
-        Temperature of surface 2 [K].
+    Returns `surface_1`: temperature of surface 1 [K]; `surface_2`: temperature of surface 2 [K].
     """
     return (
         problem.bulk_1 + problem.surface_heating_1 * (grid.heat @ q_1),
@@ -511,24 +266,7 @@ def surface_temperatures(problem: Problem, grid: Grid, q_1: Numbers, q_2: Number
 
 
 def inlet_temperatures(problem: Problem, h: float, t: Numbers, m_dot: float) -> Numbers:
-    """Return the temperatures of the first column (Eq. E8.3).
-
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    h : float
-        Film thickness at the first column [m].
-    t : (n, k) array
-        Temperature of all columns [K].
-    m_dot : float
-        Mass flow [kg/(s m)].
-
-    Returns
-    -------
-    (k,) array
-        Temperature [K].
-    """
+    """Return the temperatures of the first column (Eq. E8.3) [K]."""
     zeta = np.linspace(0.0, 1.0, t.shape[1])
     mean = m_dot / (problem.laws.density * h)
     u = problem.speed_1 * (1.0 - zeta) + problem.speed_2 * zeta
@@ -547,31 +285,7 @@ def residual(
     t: Numbers,
     carried: Carried | None = None,
 ) -> Residual:
-    """Return the residuals of a thermal contact; they are zero if P, H0 and the temperatures solve the equations.
-
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    grid : Grid
-        Mesh along the contact.
-    cavitated : (n,) array of bool
-        Nodes of broken film.
-    pressure : (n,) array
-        P = p/p_H [-].
-    separation : number
-        H0 [-].
-    t : (n, k) array
-        Temperature [K].
-    carried : Carried, optional
-        Flow quantities in the heat balance, which a Newton step holds fixed; by default, they are computed from the
-        state.
-
-    Returns
-    -------
-    Residual
-        Residuals of mass, load and heat.
-    """
+    """Return the residuals of a thermal contact; they are zero if P, H0 and the temperatures solve the equations."""
     film = film_thickness(grid, pressure, separation)
     h, p = film * problem.gap_scale, pressure * problem.maximum_pressure
     gradient = problem.maximum_pressure / problem.half_width
@@ -593,25 +307,7 @@ def isothermal_residual(
 ) -> tuple[Numbers, Any]:
     """Return the residuals of an isothermal contact; they are zero if P and H0 solve the equations.
 
-    Parameters
-    ----------
-    problem : Problem
-        Constants of the contact.
-    grid : Grid
-        Mesh along the contact.
-    cavitated : (n,) array of bool
-        Nodes of broken film.
-    pressure : (n,) array
-        P = p/p_H [-].
-    separation : number
-        H0 [-].
-
-    Returns
-    -------
-    mass : (n,) array
-        Residual of mass, divided by the flux scale [-].
-    load : number
-        Residual of the load [-].
+    Returns `mass`: residual of mass, divided by the flux scale [-]; `load`: residual of the load [-].
     """
     film = film_thickness(grid, pressure, separation)
     h, p = film * problem.gap_scale, pressure * problem.maximum_pressure
@@ -647,18 +343,14 @@ def _to_nodes(intervals: Numbers) -> Numbers:
 
 
 def _layers(psi: Numbers) -> Numbers:
-    """Return the stream function (n, k + 1) at the edges of the cells across the film.
-
-    The inner edges lie half way between two nodes. The outer edges lie on the surfaces.
-    """
+    """Return the stream function (n, k + 1) at the edges of the cells across the film."""
+    # The inner edges lie half way between two nodes. The outer edges lie on the surfaces.
     return np.asarray(np.concatenate([psi[:, :1], 0.5 * (psi[:, 1:] + psi[:, :-1]), psi[:, -1:]], axis=1))
 
 
 def _edges(psi: Numbers) -> Numbers:
-    """Return the stream function (n, k + 1) half way between every column and the next, at the edges of the cells.
-
-    The last column has no next column. For the last column, the results are the values of this column itself.
-    """
+    """Return the stream function (n, k + 1) half way between every column and the next, at the edges of the cells."""
+    # The last column has no next column. For the last column, the results are the values of this column itself.
     layers = _layers(psi)
     return np.asarray(0.5 * (layers + np.concatenate([layers[1:], layers[-1:]])))
 

@@ -19,20 +19,16 @@ MODULUS = 226.37e9
 def at_pressure(
     pressure: float, ratio: float, speed: float, viscosity: float, radius: float, model: Model
 ) -> LineContactInputs:
-    """Return the line contact with a given Hertzian pressure [Pa] and slide-roll ratio [-].
-
-    The mean speed [m/s], the viscosity [Pa s] and the reduced radius [m] are also given.
-    """
+    """Return the line contact with a given Hertzian pressure [Pa] and slide-roll ratio [-]."""
+    # The mean speed [m/s], the viscosity [Pa s] and the reduced radius [m] are also given.
     line_load = 2.0 * pi * radius * pressure**2 / MODULUS
     contact = Contact(line_load, radius, speed * (1 + ratio / 2), speed * (1 - ratio / 2))
     return LineContactInputs(contact, lubricant=Lubricant(viscosity=viscosity), model=model)
 
 
 def random_contacts(model: Model, count: int, seed: int) -> list[LineContactInputs]:
-    """Draw line contacts with Hertzian pressures of 0.3 to 3 GPa and slide-roll ratios of 0 to 1.9.
-
-    The logarithms of mean speed, viscosity and radius are uniformly distributed.
-    """
+    """Draw line contacts with Hertzian pressures of 0.3 to 3 GPa and slide-roll ratios of 0 to 1.9."""
+    # The logarithms of mean speed, viscosity and radius are uniformly distributed.
     random = Random(seed)
 
     def between(low: float, high: float) -> float:
@@ -58,10 +54,8 @@ def grid_contacts(model: Model) -> list[LineContactInputs]:
 
 
 def blok_flash(at: Contact, friction: float) -> float:
-    """Return Blok's flash temperature [K] of steel on steel, Eq. 25.
-
-    The speeds u_1 and u_2 are the rolling speeds. The source prints sliding speeds instead.
-    """
+    """Return Blok's flash temperature [K] of steel on steel, Eq. 25."""
+    # The speeds u_1 and u_2 are the rolling speeds. The source prints sliding speeds instead.
     steel = Solid()
     flash = blok_flash_temperature(
         friction=friction,

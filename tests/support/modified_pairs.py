@@ -113,10 +113,8 @@ def relieved_pair(points: int) -> ScuffingInputs:
 
 
 def turbo_pair(helix_slope: float) -> ScuffingInputs:
-    """Return a turbo pair that transmits 12 MW at 10,000 1/min. `helix_slope` is in m.
-
-    The pair has 39 and 130 teeth, a module of 6 mm, a helix angle of 11.5 degrees and a face width of 200 mm.
-    """
+    """Return a turbo pair that transmits 12 MW at 10,000 1/min. `helix_slope` is in m."""
+    # The pair has 39 and 130 teeth, a module of 6 mm, a helix angle of 11.5 degrees and a face width of 200 mm.
     gears = GearPairInputs(
         GearTeeth(39), GearTeeth(130), 6e-3, 0.2, helix_angle=radians(11.5), rack_tip_radius=GROUND_FILLET
     )
@@ -152,12 +150,10 @@ def points_of(inputs: ScuffingInputs, result: Scuffing) -> ContactPoints:
 
 
 def check_path(inputs: ScuffingInputs, every: int = 1) -> Scuffing:
-    """Check that a path has the same results as its points solved one by one. Return the results of the path.
-
-    The minimum film thickness and the friction must agree within 1 %, flash temperatures within 1 % or 0.5 K. If they
-    do not agree, the AssertionError contains the case. A point that is solved alone must also be solved along the path.
-    The path may solve more points, because the solver starts each point from the solution at a neighbour.
-    """
+    """Check that a path has the same results as its points solved one by one. Return the results of the path."""
+    # The minimum film thickness and the friction must agree within 1 %, flash temperatures within 1 % or 0.5 K. If they
+    # do not agree, the AssertionError contains the case. A point that is solved alone must also be solved along the
+    # path. The path may solve more points, because the solver starts each point from the solution at a neighbour.
     result = solve_scuffing(inputs)
     path, thermal = result.path, result.path.thermal
     for point, alone in points_alone(inputs, result, every).items():
@@ -179,10 +175,8 @@ def check_path(inputs: ScuffingInputs, every: int = 1) -> Scuffing:
 
 
 def search_paths(rng: np.random.Generator) -> None:
-    """Draw a pair, solve its path, solve every tenth point again on its own, and compare the results.
-
-    A pair that the solver refuses passes the check.
-    """
+    """Draw a pair, solve its path, solve every tenth point again on its own, and compare the results."""
+    # A pair that the solver refuses passes the check.
     inputs = random_pair(rng)
     try:
         check_path(inputs, every=10)

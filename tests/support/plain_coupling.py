@@ -63,10 +63,8 @@ class PlainMesh:
         return sliding
 
     def forces(self, phi: FloatArray) -> FloatArray:
-        """Return the tangential tooth forces [N], which together transmit the torque.
-
-        The teeth with the largest lead carry the load. As many teeth carry as the torque requires.
-        """
+        """Return the tangential tooth forces [N], which together transmit the torque."""
+        # The teeth with the largest lead carry the load. As many teeth carry as the torque requires.
         stiffness, ahead = self.inputs.coupling.tooth_stiffness, self.ahead(phi)
         needed = self.inputs.operation.torque / self.radius / stiffness
         first = np.sort(ahead, axis=1)[:, ::-1]

@@ -13,10 +13,8 @@ from tests.support.server import ROOT, free_port, wait_until
 
 @contextmanager
 def running_proxy(folder: Path, address: str, **replaced: str) -> Iterator[str]:
-    """Run nginx in front of the service at `address`, and yield the address of nginx.
-
-    In the configuration, each of the keys of `replaced` is replaced by its value.
-    """
+    """Run nginx in front of the service at `address`, and yield the address of nginx."""
+    # In the configuration, each of the keys of `replaced` is replaced by its value.
     port = free_port()
     site = (ROOT / "deploy" / "nginx.conf").read_text("utf-8")
     own = {"listen 80;": f"listen 127.0.0.1:{port};", "127.0.0.1:8000": urlsplit(address).netloc}

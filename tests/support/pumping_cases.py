@@ -26,10 +26,8 @@ PITCH_LINE_SPEEDS = (15.0, 200.0)  # m/s
 
 
 def random_gears(draw: Generator) -> GearPairInputs:
-    """Draw a gear pair like those of turbo and industrial gear units.
-
-    The profile shift and the addendum of each gear are random. One of five pairs is a spur pair.
-    """
+    """Draw a gear pair like those of turbo and industrial gear units."""
+    # The profile shift and the addendum of each gear are random. One of five pairs is a spur pair.
     module = draw.choice([1.5, 2.0, 3.0, 4.0, 5.0, 6.8, 7.0, 8.0, 10.0]) * 1e-3
     pinion = int(draw.integers(18, 60))
     wheel = int(draw.integers(pinion, 6 * pinion))
@@ -51,10 +49,8 @@ def _teeth(draw: Generator, count: int) -> GearTeeth:
 
 
 def rough_gears(draw: Generator) -> GearPairInputs:
-    """Draw a gear pair that may be impossible.
-
-    The teeth may be undercut, reach into fillets or lack clearance, and the centre distance may be too short.
-    """
+    """Draw a gear pair that may be impossible."""
+    # The teeth may be undercut, reach into fillets or lack clearance, and the centre distance may be too short.
     gears = replace(
         random_gears(draw),
         pinion=_rough_teeth(draw, 6, 30),
@@ -78,10 +74,8 @@ def _rough_teeth(draw: Generator, low: int, high: int) -> GearTeeth:
 
 
 def random_setup(draw: Generator, model: PumpingModel | None = None) -> PumpingSetup:
-    """Draw a set-up whose gears and tooth spaces are possible.
-
-    The centre distance is up to 0.03 normal modules larger than the centre distance without backlash.
-    """
+    """Draw a set-up whose gears and tooth spaces are possible."""
+    # The centre distance is up to 0.03 normal modules larger than the centre distance without backlash.
     while True:
         gears = random_gears(draw)
         try:
@@ -116,11 +110,9 @@ def spaces_of(result: PumpingResult) -> Iterator[SpacesResult]:
 
 
 def check_books(draw: Generator) -> None:
-    """Check the balances of mass and energy, the net mass flows and the pumping power.
-
-    Each net flow at an end is the outflow minus the inflow, and all net flows add up to 0. The pumping power is the
-    work per space times the meshing frequency.
-    """
+    """Check the balances of mass and energy, the net mass flows and the pumping power."""
+    # Each net flow at an end is the outflow minus the inflow, and all net flows add up to 0. The pumping power is the
+    # work per space times the meshing frequency.
     flow = Flow(draw.choice([Flow.GAS_DYNAMICS, Flow.POCKET_CHAIN]))
     setup = random_setup(draw, PumpingModel(flow=flow, slices=40 if flow is Flow.GAS_DYNAMICS else 8))
     case = PumpingInputs(setup, random_speed(draw, setup))
@@ -252,14 +244,12 @@ def check_no_jump(draw: Generator, name: str | None = None) -> None:
 
 
 def check_no_jump_of(case: PumpingInputs, name: str) -> None:
-    """Check that a fine scan of one input has no jump.
-
-    A number may change suddenly if the stroke has one time step more or less, or a land between grooves has one slice
-    more or less. Such a change must not exceed the sum of the uncertainties of the results before and after the change.
-    The change must also be at most a tenth of the largest value of the number. The radial flow is a small difference of
-    large flows. Its tenth is therefore taken of the sum of its largest value and the flows out of both ends. If both
-    results have the notice `area_jump`, only the uncertainties count.
-    """
+    """Check that a fine scan of one input has no jump."""
+    # A number may change suddenly if the stroke has one time step more or less, or a land between grooves has one slice
+    # more or less. Such a change must not exceed the sum of the uncertainties of the results before and after the
+    # change. The change must also be at most a tenth of the largest value of the number. The radial flow is a small
+    # difference of large flows. Its tenth is therefore taken of the sum of its largest value and the flows out of both
+    # ends. If both results have the notice `area_jump`, only the uncertainties count.
     cases = [scanned(case, name, k / (POINTS - 1)) for k in range(POINTS)]
     try:
         found = scan(cases)

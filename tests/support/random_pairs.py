@@ -19,10 +19,8 @@ MODELS = st.builds(
 
 @st.composite
 def gears(draw: st.DrawFn) -> GearPairInputs:
-    """Draw a spur or helical gear pair.
-
-    The profile shifts are -0.2 to 0.4 modules, and the addendum is 0.8 to 1 module.
-    """
+    """Draw a spur or helical gear pair."""
+    # The profile shifts are -0.2 to 0.4 modules, and the addendum is 0.8 to 1 module.
     helix = draw(st.one_of(st.just(0.0), st.floats(0.1, 35.0)))
     addendum = draw(st.floats(0.8, 1.0))
     pinion, wheel = (

@@ -127,20 +127,16 @@ def mirrored(inputs: DriveTrainInputs) -> DriveTrainInputs:
 
 
 def _spur_face_reversed(image: DriveTrainInputs) -> DriveTrainInputs:
-    """Return the mirrored unit, with the opposite helix slope if the gears are a spur pair.
-
-    The face of a spur pair begins at the end that the rotation determines. In a mirrored unit, this is the other end.
-    """
+    """Return the mirrored unit, with the opposite helix slope if the gears are a spur pair."""
+    # The face of a spur pair begins at the end that the rotation determines. In a mirrored unit, this is the other end.
     slope = "mesh.distribution.modifications.helix_slope"
     is_spur = image.mesh.distribution.gears.helix_angle == 0.0
     return changed(image, {slope: -value_at(image, slope)}) if is_spur else image
 
 
 def reversed_ends(inputs: DriveTrainInputs) -> DriveTrainInputs:
-    """Return the mirror image of the whole unit; the mirror is the plane Z = 0.
-
-    The slopes of the machines' axes and the thrust fractions of the couplings change their sign.
-    """
+    """Return the mirror image of the whole unit; the mirror is the plane Z = 0."""
+    # The slopes of the machines' axes and the thrust fractions of the couplings change their sign.
     width = inputs.mesh.distribution.gears.face_width
     hand = "left" if inputs.arrangement.hand == "right" else "right"
     shafts = [

@@ -48,10 +48,8 @@ CONTACT: dict[str, Any] = {
 
 
 def solved(endpoint: str, body: dict[str, Any], changes: Mapping[str, Any] = {}) -> dict[str, Any]:
-    """Change a request at dotted paths, solve the request in this process and return the answer.
-
-    The answer has the detail "summary" unless `changes` sets another detail.
-    """
+    """Change a request at dotted paths, solve the request in this process and return the answer."""
+    # The answer has the detail "summary" unless `changes` sets another detail.
     calculation = BY_PATH[endpoint]
     request = calculation.request.model_validate(changed(body, {"detail": "summary", **changes}))
     return json.loads(json_answer(calculation, request))
@@ -63,10 +61,8 @@ def example(name: str, changes: Mapping[str, Any] = {}) -> dict[str, Any]:
 
 
 def changed(body: dict[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """Return a copy of a request with new values at dotted paths. The value `GONE` removes a field.
-
-    A number in a path is an index of a list.
-    """
+    """Return a copy of a request with new values at dotted paths. The value `GONE` removes a field."""
+    # A number in a path is an index of a list.
     result = copy.deepcopy(body)
     for path, value in changes.items():
         *way, last = path.split(".")

@@ -46,10 +46,8 @@ def started_server(
     environment: dict[str, str] | None = None,
     **settings: object,
 ) -> Iterator[Server]:
-    """Start a server and yield its process and its URL, without waiting until the server is ready.
-
-    The settings are passed as environment variables. At the end of the context, the process is stopped.
-    """
+    """Start a server and yield its process and its URL, without waiting until the server is ready."""
+    # The settings are passed as environment variables. At the end of the context, the process is stopped.
     port = free_port()
     variables = {f"TRIBODRIVE_{name.upper()}": str(value) for name, value in settings.items()}
     output = log if isinstance(log, int) else (log or Path(os.devnull)).open("w")

@@ -14,9 +14,7 @@ Inputs = TypeVar("Inputs")
 
 
 def stored(kind: type[Inputs], model: str, name: str) -> list[Inputs]:
-    """Return the cases that have a name in the file of a model.
-
-    The cases are objects of the class `kind`. Fields that the file leaves out have the default values of this class.
-    """
+    """Return the cases that have a name in the file of a model."""
+    # The cases are objects of the class `kind`. Fields that the file leaves out have the default values of this class.
     cases = json.loads((CASES / f"{model}.json").read_text("utf-8"))[name]
     return TypeAdapter(list[kind], config=ConfigDict(extra="forbid")).validate_python(cases)  # type: ignore[valid-type]

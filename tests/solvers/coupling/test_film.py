@@ -27,11 +27,9 @@ LOWEST = 0.05  # of the default curve of mixed friction
 
 
 def integrated_load(inlet: float) -> float:
-    """Return the load W = -int X dp of a film by direct integration.
-
-    The film thickness is H = 1 + X^2, and the pressure p follows from dp/dX = (H - H_m)/H^3. The pressure is 0 at
-    X = -inlet. At the exit, p and dp/dX are 0.
-    """
+    """Return the load W = -int X dp of a film by direct integration."""
+    # The film thickness is H = 1 + X^2, and the pressure p follows from dp/dX = (H - H_m)/H^3. The pressure is 0 at X =
+    # -inlet. At the exit, p and dp/dX are 0.
 
     def pressure_at_exit(exit_place: float) -> float:
         film = 1.0 + exit_place**2

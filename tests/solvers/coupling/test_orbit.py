@@ -136,10 +136,8 @@ def test_an_orbit_states_how_certain_it_is(misalignment: float, monkeypatch: pyt
 
 
 def test_an_orbit_that_happens_to_agree_with_twice_its_angles_is_not_called_certain() -> None:
-    """With four rotor angles per pitch, the orbit has an error of 1.2 %.
-
-    A comparison with eight angles per pitch shows 0.9 %, and a comparison with twelve angles shows 1.5 %.
-    """
+    """With four rotor angles per pitch, the orbit has an error of 1.2 %."""
+    # A comparison with eight angles per pitch shows 0.9 %, and a comparison with twelve angles shows 1.5 %.
     cases = stored(CouplingInputs, "coupling", "orbit that agrees with twice its angles by luck")
     assert [notice.code for notice in solve_orbit(cases[0]).warnings] == ["orbit_resolution"]
     for inputs in cases:

@@ -29,11 +29,9 @@ def unlike(
     expected: Expected,
     answer: Callable[[CouplingInputs], object] = solve,
 ) -> list[str]:
-    """Return the names of the values that differ between a coupling and its image.
-
-    The overturning moment is a small difference of large friction moments of opposite teeth. Its tolerance is
-    therefore a share of the largest possible moment of friction.
-    """
+    """Return the names of the values that differ between a coupling and its image."""
+    # The overturning moment is a small difference of large friction moments of opposite teeth. Its tolerance is
+    # therefore a share of the largest possible moment of friction.
     one, other = answer(inputs), answer(image)
     if isinstance(one, CouplingResult) and isinstance(other, CouplingResult):
         largest = one.axial_thrust.coaxial_limit * one.geometry.pitch_radius

@@ -24,10 +24,8 @@ STIFFNESS = 2.8e8
 
 
 def six_equations(inputs: CouplingInputs, friction: float, velocity: float, angle: float) -> tuple[float, float]:
-    """Return the thrust [N] on the left and on the right shaft at one rotor angle.
-
-    A general root finder solves the six equations, with lengths in um.
-    """
+    """Return the thrust [N] on the left and on the right shaft at one rotor angle."""
+    # A general root finder solves the six equations, with lengths in um.
     right_tilt = 1 if inputs.operation.arrangement == "parallel_offset" else -1
     meshes = PlainMesh(inputs), PlainMesh(inputs, side=-1, tilt=right_tilt)
     phi = meshes[0].angles(np.array([angle]))[0]

@@ -106,10 +106,8 @@ def test_a_sleeve_on_two_of_six_teeth_finds_the_balance_it_has() -> None:
 
 
 def random_balance(random: np.random.Generator) -> tuple[ToothLoads, np.ndarray, np.ndarray, float]:
-    """Return the loads and lateral force of the teeth, the external force and T/r_o of a random valid sleeve.
-
-    The inputs reach to the bounds of the API, and some pitch deviations of a coupling are equal.
-    """
+    """Return the loads and lateral force of the teeth, the external force and T/r_o of a random valid sleeve."""
+    # The inputs reach to the bounds of the API, and some pitch deviations of a coupling are equal.
     teeth = int(random.choice([6, 7, 8, 9, 12, 20, 52, 77, 120, 400]))
     error = float(random.choice([0.0, 1e-9, 1e-7, 1e-6, 5e-6, 1e-4, 1e-2]))
     errors = random.normal(size=teeth)
@@ -209,10 +207,8 @@ def test_two_wave_pitch_errors_are_carried_and_eccentricity_is_floated_away() ->
 
 
 def test_the_largest_force_of_spatial_kinematics_lies_past_the_tilt_position() -> None:
-    """The displacement is largest at 107.8 degrees, where a tooth carries 3833 N.
-
-    If a tooth stands at 90 degrees, the largest tooth force is only 3601 N.
-    """
+    """The displacement is largest at 107.8 degrees, where a tooth carries 3833 N."""
+    # If a tooth stands at 90 degrees, the largest tooth force is only 3601 N.
     design = Coupling(teeth=32, module=6e-3, face_width=0.048, tooth_height=0.012, crowning_ratio=4.39)
     operation = Operation(torque=1922.8, speed=200.0, misalignment=radians(0.63))
     spatial = CouplingInputs(design, operation, model=ModelOptions(kinematics="spatial"))

@@ -37,10 +37,8 @@ from tests.support.random_units import COARSE, mirrored, reversed_ends, rotated,
 
 
 def test_an_even_load_of_a_spur_gear_is_even_at_the_stations() -> None:
-    """The contact lines of a spur gear run along the face.
-
-    The load at the stations is therefore even only if all intervals between stations have the same number of slices.
-    """
+    """The contact lines of a spur gear run along the face."""
+    # The load at the stations is therefore even only if all intervals between stations have the same number of slices.
     spur = {"mesh.distribution.gears.helix_angle": 0.0, "pumping.gears.helix_angle": 0.0, "effects": NO_EFFECTS}
     force = solve(changed(turbo_gear(), spur)).misalignment.curves.line_force
     assert force == pytest.approx(np.full(force.size, force.mean()), rel=1e-9)
@@ -89,10 +87,8 @@ def test_lead_curves() -> None:
 @pytest.mark.parametrize("contact", ["hertzian", "linear"])
 @pytest.mark.parametrize("helix", [0.0, 11.5])
 def test_face_response_is_the_balances_own(contact: str, helix: float) -> None:
-    """The forces at the stations add up to the mesh force, and their derivative is the difference quotient.
-
-    A start from another response gives the same forces. The approach of helical flanks is that of the load balance.
-    """
+    """The forces at the stations add up to the mesh force, and their derivative is the difference quotient."""
+    # A start from another response gives the same forces. The approach of helical flanks is that of the load balance.
     values = {"gears.helix_angle": radians(helix), "model.contact": contact}
     given_mesh = mesh_of(changed(turbo_gear(GROUND).mesh.distribution, values))
     lead = np.random.default_rng(3).normal(size=11) * 3e-6
@@ -136,10 +132,8 @@ def test_equally_hot_gears_have_no_error() -> None:
 
 
 def test_a_hot_pinion_leaves_its_contact_lines_parallel() -> None:
-    """A hot pinion causes a constant gap along a contact line; neighbouring lines differ by alpha dT p_bt.
-
-    This gap is the sum of lead and profile slope.
-    """
+    """A hot pinion causes a constant gap along a contact line; neighbouring lines differ by alpha dT p_bt."""
+    # This gap is the sum of lead and profile slope.
     inputs = turbo_gear()
     path = mesh_of(inputs.mesh.distribution).path
     plane, rise = path.plane, 15.0
@@ -220,10 +214,9 @@ def test_singular_equations_are_no_solution(unknowns: int, monkeypatch: pytest.M
 
 
 def test_finer_stations_change_little() -> None:
-    """81 stations instead of 41 change K_H_beta by less than 1e-4 and the slope of the shafts by less than 2e-4.
-
-    96 roll positions and 60 slices instead of 200 and 100 change K_H_beta by less than 1e-3. All changes are relative.
-    """
+    """81 stations instead of 41 change K_H_beta by less than 1e-4 and the slope of the shafts by less than 2e-4."""
+    # 96 roll positions and 60 slices instead of 200 and 100 change K_H_beta by less than 1e-3. All changes are
+    # relative.
     plain = turbo_gear()
     one, other = outcome(plain), outcome(replace(plain, face_stations=81))
     assert other.face_load_factor == pytest.approx(one.face_load_factor, rel=1e-4)

@@ -56,10 +56,8 @@ def test_derivative_of_the_loads(law: str, shaft: str, scale: float) -> None:
 @pytest.mark.parametrize("shaft", ["pinion", "wheel"])
 @pytest.mark.parametrize("machine_side", ["minus", "plus"])
 def test_sleeve_is_in_balance_and_friction_dissipates(law: str, rotation: float, shaft: str, machine_side: str) -> None:
-    """The forces of the hubs on the sleeve balance the moments of the hubs on the sleeve.
-
-    The loss moment of friction acts against the sliding, and the straightening moment acts against the tilt.
-    """
+    """The forces of the hubs on the sleeve balance the moments of the hubs on the sleeve."""
+    # The loss moment of friction acts against the sliding, and the straightening moment acts against the tilt.
     own = port(replace(COUPLING, shaft=shaft, machine_side=machine_side), law, rotation)
     loads, _ = coupling_loads(own, TILTS)
     force_on_sleeve = -np.array([loads[0], loads[1], 0.0])
@@ -86,11 +84,9 @@ def test_sleeve_is_in_balance_and_friction_dissipates(law: str, rotation: float,
 
 
 def jenkins(ratio: float) -> tuple[float, float]:
-    """Return the loss moment and the elastic moment of a spring that slides at a limit force.
-
-    The spring is stepped through two cycles with the amplitude `ratio` times the stretch at the limit force. The second
-    cycle gives both moments, divided by the loss moment of full sliding.
-    """
+    """Return the loss moment and the elastic moment of a spring that slides at a limit force."""
+    # The spring is stepped through two cycles with the amplitude `ratio` times the stretch at the limit force. The
+    # second cycle gives both moments, divided by the loss moment of full sliding.
     steps, stretch, forces = 20000, 0.0, []
     angle = 2 * pi * np.arange(2 * steps) / steps
     place = ratio * np.cos(angle)

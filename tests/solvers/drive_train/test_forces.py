@@ -19,11 +19,9 @@ WHEEL_COUPLING = replace(COUPLING, shaft="wheel", position=0.88, machine_side="p
 
 
 def unit(fraction: float, collar: float | None = None) -> DriveTrainInputs:
-    """Return the example with an elastic-plastic coupling on either shaft.
-
-    The coupling model computes the friction of the pinion's coupling. This coupling pushes with the share `fraction` of
-    its thrust limit.
-    """
+    """Return the example with an elastic-plastic coupling on either shaft."""
+    # The coupling model computes the friction of the pinion's coupling. This coupling pushes with the share `fraction`
+    # of its thrust limit.
     couplings = (
         replace(COUPLING, friction=Friction(), thrust_fraction=fraction),
         replace(WHEEL_COUPLING, thrust_fraction=-0.5),
@@ -47,10 +45,8 @@ def weight(shaft: Shaft) -> tuple[float, float]:
 
 
 def sums(inputs: DriveTrainInputs, found: DriveTrainResult, index: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return the sum of all forces (X, Y) [N] and the sum of all moments [N m] on one shaft.
-
-    The moments are conjugate to the slopes: a force F at the position Z contributes Z F. Couples are included.
-    """
+    """Return the sum of all forces (X, Y) [N] and the sum of all moments [N m] on one shaft."""
+    # The moments are conjugate to the slopes: a force F at the position Z contributes Z F. Couples are included.
     shaft, result, coupling = inputs.shafts[index], found.shafts[index], found.couplings[index]
     path, sign = meshing_path(inputs.mesh.distribution.gears), (1.0, -1.0)[index]
     angle, working = inputs.arrangement.wheel_angle, path.pair.working_pressure_angle
@@ -80,10 +76,8 @@ def sums(inputs: DriveTrainInputs, found: DriveTrainResult, index: int) -> tuple
 @pytest.mark.parametrize("fraction", [0.0, 0.6, -1.0])
 @pytest.mark.parametrize("collar", [None, COLLAR])
 def test_what_is_told_of_a_shaft_is_in_balance(fraction: float, collar: float | None) -> None:
-    """The forces and moments on a shaft add up to zero, within 1e-9 of the tooth force and of its moment.
-
-    If the sleeve of 12 kg were left out, 118 N would remain, which is 1e-3 of the tooth force.
-    """
+    """The forces and moments on a shaft add up to zero, within 1e-9 of the tooth force and of its moment."""
+    # If the sleeve of 12 kg were left out, 118 N would remain, which is 1e-3 of the tooth force.
     inputs = unit(fraction, collar)
     found = solve(inputs)
     tooth = 12e6 / (10000 * pi / 30) / meshing_path(inputs.mesh.distribution.gears).pair.pinion.base_radius

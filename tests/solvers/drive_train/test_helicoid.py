@@ -38,11 +38,9 @@ def turned(vector: FloatArray, angle: float) -> FloatArray:
 
 
 def helicoid(centre: FloatArray, foot: FloatArray, end: FloatArray, twist: float) -> Surface:
-    """Return the flank through `end` that the end of a taut string draws, as a function of unwound angle and Z.
-
-    The string leaves the base circle around `centre` at `foot`. If the string unwinds further by an angle, its length
-    changes by the arc. `twist` [rad/m] turns the curve along Z.
-    """
+    """Return the flank through `end` that the end of a taut string draws, as a function of unwound angle and Z."""
+    # The string leaves the base circle around `centre` at `foot`. If the string unwinds further by an angle, its length
+    # changes by the arc. `twist` [rad/m] turns the curve along Z.
     arm, string = foot - centre, end - foot
     radius, length = np.linalg.norm(arm), np.linalg.norm(string)
     taut = string / length
@@ -73,10 +71,8 @@ def flanks(standing: Arrangement, reach: float) -> tuple[FloatArray, Surface, Su
 
 
 def beyond(surface: Surface, origin: FloatArray, onward: FloatArray, along: float, growth: float = 0.0) -> float:
-    """Return the distance along the path of contact from the cold flank at Z = 0 to the grown flank at Z = `along`.
-
-    The flank grows around `origin` by the share `growth`.
-    """
+    """Return the distance along the path of contact from the cold flank at Z = 0 to the grown flank at Z = `along`."""
+    # The flank grows around `origin` by the share `growth`.
     began = surface(0.0, 0.0)
 
     def miss(unknown: FloatArray) -> FloatArray:
@@ -117,11 +113,9 @@ def test_the_face_begins_at_the_end_that_is_ahead(standing: Arrangement) -> None
 def test_growth_by_heat_closes_the_gap_that_the_thermal_lead_says(
     standing: Arrangement, rises: tuple[float, float]
 ) -> None:
-    """Each gear body expands away from its axis and away from the plane y = 0.
-
-    To first order in the growth, thermal lead and profile slope together equal the gap between the flanks, up to a
-    constant.
-    """
+    """Each gear body expands away from its axis and away from the plane y = 0."""
+    # To first order in the growth, thermal lead and profile slope together equal the gap between the flanks, up to a
+    # constant.
     heat = Heat(0.0, pinion_bulk=300.0 + rises[0], wheel_bulk=300.0 + rises[1], reference=300.0)
     y = np.linspace(0.0, PATH.plane.face_width, 11)
     found = thermal_lead(replace(UNIT, heat=heat, arrangement=standing), PATH, y)

@@ -29,10 +29,8 @@ def heat_of(inputs: ScuffingInputs) -> FlankHeat:
 
 
 def test_a_point_too_light_to_matter_keeps_the_verdict() -> None:
-    """Some points carry almost no load and stay unsolved.
-
-    Bounds show that these points are not hotter than the hottest solved point.
-    """
+    """Some points carry almost no load and stay unsolved."""
+    # Bounds show that these points are not hotter than the hottest solved point.
     inputs = replace(relieved_pair(200), film=COARSE)
     alone, heat = solve_scuffing(inputs), heat_of(inputs)
     assert heat.unsolved_points > 0

@@ -38,10 +38,8 @@ FILMS: tuple[BearingFilm, ...] = ("finite", "short")
 
 
 def force_of(displacement: np.ndarray, rotation: float) -> np.ndarray:
-    """Return the force of the film on the shaft at a displacement.
-
-    The closed form gives the components along and across the displacement.
-    """
+    """Return the force of the film on the shaft at a displacement."""
+    # The closed form gives the components along and across the displacement.
     eccentricity = hypot(*displacement) / JOURNAL.clearance
     radial, rest = displacement / hypot(*displacement), 1 - eccentricity**2
     tangential = rotation * np.array([-radial[1], radial[0]])
@@ -179,10 +177,8 @@ def test_stepped_beam_under_a_central_load() -> None:
 
 
 def test_stepped_beam_under_a_load_off_its_middle() -> None:
-    """The deflection equals Mohr's integral of M m/(E I), computed by quadrature over every stretch of the beam.
-
-    M is the bending moment of the load, and m is the bending moment of a unit load at the place of the deflection.
-    """
+    """The deflection equals Mohr's integral of M m/(E I), computed by quadrature over every stretch of the beam."""
+    # M is the bending moment of the load, and m is the bending moment of a unit load at the place of the deflection.
     lengths, diameters, load, at = (0.2, 0.35, 0.25), (0.09 * SLENDER, 0.13 * SLENDER, 0.1 * SLENDER), 0.3, 0.62
     shaft = beam(*zip(lengths, diameters, strict=True), bearings=(0.0, 0.8))
 
@@ -200,10 +196,8 @@ def test_stepped_beam_under_a_load_off_its_middle() -> None:
 
 
 def test_moment_on_an_overhang() -> None:
-    """A moment M acts at the end of an overhang c beside a span l.
-
-    The end deflects by M c l/(3 E I) + M c^2/(2 E I) and turns by M l/(3 E I) + M c/(E I).
-    """
+    """A moment M acts at the end of an overhang c beside a span l."""
+    # The end deflects by M c l/(3 E I) + M c^2/(2 E I) and turns by M l/(3 E I) + M c/(E I).
     span, overhang, moment = 0.5, 0.2, 800.0
     shaft = beam((span + overhang, 0.1 * SLENDER), bearings=(0.0, span))
     stiffness = E * second_moment(shaft.sections[0])
@@ -214,11 +208,9 @@ def test_moment_on_an_overhang() -> None:
 
 
 def test_shear_of_timoshenko() -> None:
-    """A central load P deflects the middle of a span L by P L^3/(48 E I) + P L/(4 kappa G A).
-
-    A force F at the end of an overhang c beside a span l deflects this end by
-    F c^2 (l + c)/(3 E I) + F c (1 + c/l)/(kappa G A).
-    """
+    """A central load P deflects the middle of a span L by P L^3/(48 E I) + P L/(4 kappa G A)."""
+    # A force F at the end of an overhang c beside a span l deflects this end by F c^2 (l + c)/(3 E I) + F c (1 +
+    # c/l)/(kappa G A).
     span, overhang, force = 0.5, 0.2, 5e4
     section = ShaftSection(span + overhang, 0.16, 0.06)
     shaft = Shaft((section,), (RigidBearing(0.0), RigidBearing(span)), torque_position=0.0)
@@ -231,10 +223,8 @@ def test_shear_of_timoshenko() -> None:
 
 
 def test_section_properties() -> None:
-    """By Cowper, kappa is 6(1 + nu)/(7 + 6 nu) for a solid circle and 2(1 + nu)/(4 + 3 nu) for a thin tube.
-
-    The test also checks the second moment of area I of a tube.
-    """
+    """By Cowper, kappa is 6(1 + nu)/(7 + 6 nu) for a solid circle and 2(1 + nu)/(4 + 3 nu) for a thin tube."""
+    # The test also checks the second moment of area I of a tube.
     assert shear_coefficient(0.3, 0.0) == pytest.approx(7.8 / 8.8)
     assert shear_coefficient(0.3, 1.0) == pytest.approx(2.6 / 4.9)
     assert second_moment(ShaftSection(1.0, 0.2, 0.1)) == pytest.approx(pi / 64 * (0.2**4 - 0.1**4))
@@ -251,10 +241,8 @@ def test_tilt_of_a_load_off_the_middle() -> None:
 
 
 def test_a_sections_cut_changes_nothing() -> None:
-    """The deflections under the weight do not depend on where a section is cut.
-
-    The reason is that the weight is applied as consistent nodal loads.
-    """
+    """The deflections under the weight do not depend on where a section is cut."""
+    # The reason is that the weight is applied as consistent nodal loads.
     whole = beam((0.5, 0.1), (0.4, 0.14), bearings=(0.1, 0.8))
     cut = beam((0.2, 0.1), (0.3, 0.1), (0.4 - 0.123, 0.14), (0.123, 0.14), bearings=(0.1, 0.8))
     places = np.array([0.0, 0.3, 0.6, 0.9])
@@ -288,10 +276,8 @@ def unit_of(inputs: DriveTrainInputs) -> Unit:
 
 
 def test_twist_under_a_uniform_load() -> None:
-    """At the distance y from the end where the torque T enters, the twist angle is T/(G J)(y - y^2/(2 b)).
-
-    Along the line of action, both ends of the face differ by F_bt b r_b^2/(2 G J).
-    """
+    """At the distance y from the end where the torque T enters, the twist angle is T/(G J)(y - y^2/(2 b))."""
+    # Along the line of action, both ends of the face differ by F_bt b r_b^2/(2 G J).
     bearings = RigidBearing(0.32), RigidBearing(0.52)
     shaft = Shaft((ShaftSection(0.2, 0.234),), bearings, start=0.32, torque_position=0.32)
     inputs = replace(turbo_gear(), pinion_shaft=shaft, couplings=())

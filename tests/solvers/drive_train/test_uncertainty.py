@@ -84,10 +84,8 @@ def test_derivatives_of_the_corrected_unit(name: str, tolerance: float, factor: 
 
 
 def test_viscosity_of_all_films_and_the_offset() -> None:
-    """If the viscosity of all films rises by 2 mPa s, K_H_beta changes by -0.0035 and the safety factor by +0.0061.
-
-    If the machine stands 100 um higher, K_H_beta changes by +0.001.
-    """
+    """If the viscosity of all films rises by 2 mPa s, K_H_beta changes by -0.0035 and the safety factor by +0.0061."""
+    # If the machine stands 100 um higher, K_H_beta changes by +0.001.
     inputs = turbo_gear(GROUND)
     names = [f"{shaft}.bearings.{k}.viscosity" for shaft in ("pinion_shaft", "wheel_shaft") for k in (0, 1)]
     found = [derivative(inputs, name, 2e-3) for name in names]
@@ -97,11 +95,9 @@ def test_viscosity_of_all_films_and_the_offset() -> None:
 
 
 def test_an_edge_maximum_is_smooth() -> None:
-    """The unit without lead correction (row 5) has its largest load at the edge of the face.
-
-    The derivative of this load with respect to the coefficient of friction is the same for steps of 1e-3, 1e-5 and
-    1e-7. K_H_beta has the same derivative.
-    """
+    """The unit without lead correction (row 5) has its largest load at the edge of the face."""
+    # The derivative of this load with respect to the coefficient of friction is the same for steps of 1e-3, 1e-5 and
+    # 1e-7. K_H_beta has the same derivative.
     name = "couplings.0.friction.coefficient"
     slopes = [derivative(turbo_gear(), name, change).face_load_factor / change for change in (1.0, 1e-2, 1e-4)]
     assert slopes == pytest.approx([slopes[0]] * 3, rel=1e-4)
@@ -110,10 +106,8 @@ def test_an_edge_maximum_is_smooth() -> None:
 
 
 def test_gap_at_a_station_moves_the_load_as_the_derivative_says() -> None:
-    """The derivative predicts how the load at the end of the face changes with the gap at one of eleven stations.
-
-    The load is divided by its mean over the face.
-    """
+    """The derivative predicts how the load at the end of the face changes with the gap at one of eleven stations."""
+    # The load is divided by its mean over the face.
     resolution = Resolution(roll_positions=48, slices=40, profile_points=61, face_points=61, feature_points=5)
     inputs = changed(turbo_gear(), {"face_stations": 11, "mesh.distribution.resolution": resolution})
     prepared = prepare(inputs)

@@ -64,10 +64,8 @@ def temperatures(result: DriveTrainResult) -> np.ndarray:
 
 
 def test_the_worked_unit_with_its_own_losses_and_loads() -> None:
-    """The temperatures differ by at most 1.3 K from those of the same network with prescribed losses and loads.
-
-    The unit computes its losses and loads itself.
-    """
+    """The temperatures differ by at most 1.3 K from those of the same network with prescribed losses and loads."""
+    # The unit computes its losses and loads itself.
     found = turbo()
     heat = found.heat
     assert heat is not None
@@ -139,10 +137,8 @@ def test_bearings_that_are_no_plain_ones_have_no_node() -> None:
 
 
 def test_an_increaser_is_balanced_too() -> None:
-    """The larger gear drives and turns slowly, and the smaller gear turns fast.
-
-    Flank temperatures are those of the reducing unit with exchanged gears, within 1.5 K.
-    """
+    """The larger gear drives and turns slowly, and the smaller gear turns fast."""
+    # Flank temperatures are those of the reducing unit with exchanged gears, within 1.5 K.
     mesh = TURBO.mesh.distribution
     gears = replace(mesh.gears, pinion=GearTeeth(130), wheel=GearTeeth(39))
     load = replace(mesh.load, pinion_torque=mesh.load.torque * 130 / 39, pinion_speed=mesh.load.pinion_speed * 39 / 130)

@@ -64,11 +64,9 @@ def test_closed_form_is_the_solved_film(film: float, turn: float) -> None:
 
 
 def test_long_turns_of_thick_films_end_at_the_similarity_limit() -> None:
-    """A similarity solution T(zeta, s) with zeta = t/sqrt(xi) gives the heat of a thick film in a long turn.
-
-    T solves (1 - s/2 + s^2/4) T_zeta + g(s)/(2 zeta) T_s = zeta T_ss with g = s (1 - s)(2 - s)/2. The heat is 4/5
-    of the integral of -sqrt(zeta) T_s at the wall over zeta.
-    """
+    """A similarity solution T(zeta, s) with zeta = t/sqrt(xi) gives the heat of a thick film in a long turn."""
+    # T solves (1 - s/2 + s^2/4) T_zeta + g(s)/(2 zeta) T_s = zeta T_ss with g = s (1 - s)(2 - s)/2. The heat is 4/5 of
+    # the integral of -sqrt(zeta) T_s at the wall over zeta.
     start, s = 1e-3, np.concatenate([[0.0], np.geomspace(1e-5, 1.0, 300)])
     gaps, drift = np.diff(s), s * (1 - s) * (2 - s) / 2
 
@@ -119,11 +117,9 @@ STAGES = [  # bulk by ISO/TR 13989-1, what conducts W/K: here, behind that repor
 
 @pytest.mark.parametrize(("bulk", "conductance", "tr_13989", "ts_6336_22"), STAGES)
 def test_flooded_fzg_gears(bulk: float, conductance: float, tr_13989: float, ts_6336_22: float) -> None:
-    """The flooded gears of FZG A/8.3/90 have 0.68 to 1.35 times the conductance of two rules at stages 6, 8, 10, 12.
-
-    The gears have 16 and 24 teeth, a module of 4.5 mm and a face width of 20 mm. The pinion turns at 2170 1/min.
-    Neither of the rules is a measurement.
-    """
+    """The flooded gears of FZG A/8.3/90 have 0.68 to 1.35 times the conductance of two rules at stages 6, 8, 10, 12."""
+    # The gears have 16 and 24 teeth, a module of 4.5 mm and a face width of 20 mm. The pinion turns at 2170 1/min.
+    # Neither of the rules is a measurement.
     speed, total = 2170 * pi / 30, 0.0
     for teeth in (16, 24):
         flanks = turning_teeth(teeth, 0.02, 4.5e-3, 2.25e-3 * teeth, speed * 16 / teeth)

@@ -152,10 +152,8 @@ def test_a_loss_that_outgrows_its_cooling_is_a_runaway() -> None:
 
 
 def test_an_equilibrium_that_runs_away_is_refused() -> None:
-    """A loss that grows with temperature has two equilibria, and the upper equilibrium is not stable.
-
-    Some hot starts reach the upper equilibrium, which is then refused.
-    """
+    """A loss that grows with temperature has two equilibria, and the upper equilibrium is not stable."""
+    # Some hot starts reach the upper equilibrium, which is then refused.
     heating = replace(PAIR.mesh, viscosity_exponent=-3.0, temperature=OIL.inlet, power=1000.0)
     network = changed(plain(PAIR), {"mesh": heating, "windage": 0.0})
     assert equilibrium(network).rises[0] < 5.0

@@ -68,10 +68,8 @@ def test_power_grows_with_the_cube_of_a_low_speed(setup: PumpingSetup) -> None:
 
 @examples(4, 100, setups())
 def test_power_of_gas_dynamics_grows_with_the_cube_of_a_low_speed(setup: PumpingSetup) -> None:
-    """The exponent of the power is 3 if the coast side of the spaces does not seal and the grid is fine enough.
-
-    The grid has at least 64 slices in the stroke at the same time.
-    """
+    """The exponent of the power is 3 if the coast side of the spaces does not seal and the grid is fine enough."""
+    # The grid has at least 64 slices in the stroke at the same time.
     assume(setup.normal_backlash > 0.01 * setup.gears.normal_module)
     space = prepare(setup).spaces[0]
     waves = space.lag * setup.gears.face_width / (space.table.limits.end - space.table.limits.start)

@@ -60,12 +60,10 @@ def closest(own: FloatArray, mate: FloatArray) -> tuple[float, int, int]:
 
 
 def sampled_section(space: ToothSpace, angle: float, points: int = 1500) -> tuple[float, float, float]:
-    """Return area, left clearance and right clearance of a section, computed from polygons with many points.
-
-    The clearance of a side is the distance of the closest pair of points. The polygon is closed between the two
-    closest points of the involutes if neither point is an end of its involute. Otherwise the polygon is closed between
-    the two closest of all points.
-    """
+    """Return area, left clearance and right clearance of a section, computed from polygons with many points."""
+    # The clearance of a side is the distance of the closest pair of points. The polygon is closed between the two
+    # closest points of the involutes if neither point is an end of its involute. Otherwise the polygon is closed
+    # between the two closest of all points.
     mate_angle = angle * space.ratio + space.offset
     own_r, own_psi = half_profile(space, points)
     mate_r, mate_mu = mate_flank(space, points)

@@ -54,10 +54,8 @@ def test_weak_peaks_are_those_of_the_flow_and_grow_with_the_square_of_the_speed(
 
 
 def test_a_stroke_that_begins_at_once_is_no_peak() -> None:
-    """The peak does not depend on the number of slices.
-
-    The search found that the first steps of a weak spur gear overshot the balance of walls and gaps by a fifth.
-    """
+    """The peak does not depend on the number of slices."""
+    # The search found that the first steps of a weak spur gear overshot the balance of walls and gaps by a fifth.
     peaks = [weak(500, slices, helix=0.0) for slices in (20, 40, 80)]
     assert peaks == pytest.approx([peaks[-1]] * 3, rel=3e-3)
 
@@ -108,10 +106,8 @@ def test_lead_of_a_hot_pinion_is_that_of_a_similar_body(hand: int) -> None:
     turn = hand * tan(pair.base_helix_angle) / base  # rad per metre of face
 
     def reached(z: float, strain: float) -> float:
-        """Return the roll length at which the flank at `z`, grown by `strain`, meets the line of action.
-
-        The cold flank meets the line of action at the cold pitch point.
-        """
+        """Return the roll length at which the flank at `z`, grown by `strain`, meets the line of action."""
+        # The cold flank meets the line of action at the cold pitch point.
         origin = turn * z / (1 + strain) - turn * z  # the flank is rolled to the pitch point in every plane when cold
         start = tan(working) - origin * hand
 
@@ -244,19 +240,15 @@ def test_strokes_that_begin_leave_no_jump(scanned: str) -> None:
 
 @pytest.mark.slow
 def test_a_step_that_only_the_answer_behind_it_calls_uncertain() -> None:
-    """The peak jumps by 2.2 % between two neighbouring helix angles of the scan.
-
-    The answer before the jump states an uncertainty of 0.3 %, and the answer behind the jump states 31 %.
-    """
+    """The peak jumps by 2.2 % between two neighbouring helix angles of the scan."""
+    # The answer before the jump states an uncertainty of 0.3 %, and the answer behind the jump states 31 %.
     (case,) = stored(PumpingInputs, "pumping", "uncertain behind a step only, over helix_angle")
     pumping_cases.check_no_jump_of(case, "helix_angle")
 
 
 def test_a_jump_of_the_area_is_named_and_nothing_claimed_beyond_it() -> None:
-    """If the foot of a tip gap leaves the flank, the area jumps by 84 % at once.
-
-    A finer grid does not change this jump.
-    """
+    """If the foot of a tip gap leaves the flank, the area jumps by 84 % at once."""
+    # A finer grid does not change this jump.
     (inputs,) = stored(PumpingInputs, "pumping", "jump of the area")
     result = solve_on_slices(inputs)
     told = {notice.code: notice.message for notice in result.warnings}
@@ -282,12 +274,10 @@ def test_a_stroke_faster_than_sound_takes_one_course() -> None:
 
 @pytest.mark.slow
 def test_waves_that_stay_with_the_meshing_line_are_not_called_resolved() -> None:
-    """The meshing point moves along the face at 0.96 times the speed of sound.
-
-    Grids of 25, 50 and 100 slices agree on a peak of 2638 Pa, but 400 slices give 2662 Pa. The answer once stated
-    uncertainties of 0.53 % for the peak and 0.55 % for the least pressure. With 400 slices, the peak changes by 0.90 %
-    and the least pressure by 0.98 %.
-    """
+    """The meshing point moves along the face at 0.96 times the speed of sound."""
+    # Grids of 25, 50 and 100 slices agree on a peak of 2638 Pa, but 400 slices give 2662 Pa. The answer once stated
+    # uncertainties of 0.53 % for the peak and 0.55 % for the least pressure. With 400 slices, the peak changes by 0.90
+    # % and the least pressure by 0.98 %.
     gears = GearPairInputs(
         GearTeeth(45, 0.16), GearTeeth(98, -0.07), 6e-3, 0.0633, helix_angle=radians(6.3), rack_tip_radius=GROUND_FILLET
     )
@@ -306,8 +296,6 @@ def test_waves_that_stay_with_the_meshing_line_are_not_called_resolved() -> None
 @pytest.mark.slow
 @pytest.mark.parametrize("case", stored(PumpingInputs, "pumping", "grids that agree by luck"))
 def test_grids_that_agree_by_luck_are_not_taken_at_their_word(case: PumpingInputs) -> None:
-    """An estimate from half the slices alone stated 1.09 % for an error of 1.17 %, and 2.7 % for an error of 17 %.
-
-    In some of the stored cases, the pressure has two peaks or a jump.
-    """
+    """An estimate from half the slices alone stated 1.09 % for an error of 1.17 %, and 2.7 % for an error of 17 %."""
+    # In some of the stored cases, the pressure has two peaks or a jump.
     pumping_cases.check_resolution_of(case)

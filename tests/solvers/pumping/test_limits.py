@@ -239,10 +239,8 @@ def test_a_helix_too_small_for_numbers_is_a_spur_gear() -> None:
 
 
 def test_a_speed_scan_takes_fewer_slices_where_it_would_not_end() -> None:
-    """A speed that would need too many steps gets fewer slices, or no value.
-
-    In a generated request, the choking figure of a disk-shaped gear once took more than half a minute.
-    """
+    """A speed that would need too many steps gets fewer slices, or no value."""
+    # In a generated request, the choking figure of a disk-shaped gear once took more than half a minute.
     disk = GearPairInputs(GearTeeth(94), GearTeeth(408), 14e-3, 0.3e-3, rack_tip_radius=0.25)
     curves = speed_scan(PumpingSetup(disk), np.linspace(5_000, 60_000, 6) * pi / 30)
     solved = np.isfinite(curves.exit_mach)

@@ -39,10 +39,8 @@ def smooth_march(cells: int, *, gap: float = 0.0, order: int = 2) -> tuple[Recor
 
 
 def orders(values: list[FloatArray]) -> list[float]:
-    """Return the observed orders of convergence on grids whose cells are halved from grid to grid.
-
-    The errors are mean differences between neighbouring grids.
-    """
+    """Return the observed orders of convergence on grids whose cells are halved from grid to grid."""
+    # The errors are mean differences between neighbouring grids.
     errors = [np.abs(a - b.reshape(-1, 2).mean(axis=1)).mean() for a, b in itertools.pairwise(values)]
     return [log2(a / b) for a, b in itertools.pairwise(errors)]
 

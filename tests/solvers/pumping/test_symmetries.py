@@ -77,10 +77,8 @@ def test_grooves_of_a_spur_pair_counted_from_its_other_end(random: Generator) ->
 
 @seeds(6, 200)
 def test_the_spaces_of_a_driven_gear_are_those_of_a_driver_gone_through_from_behind(random: Generator) -> None:
-    """The areas and clearances over the stroke depend on the geometry alone.
-
-    A driven gear passes through the stroke of a driving gear in the reverse direction.
-    """
+    """The areas and clearances over the stroke depend on the geometry alone."""
+    # A driven gear passes through the stroke of a driving gear in the reverse direction.
     inputs = draw_case(random)
     gears = inputs.setup.gears
     exchanged = changed(inputs, {"setup.gears.pinion": gears.wheel, "setup.gears.wheel": gears.pinion})

@@ -130,10 +130,8 @@ def test_undercut_takes_the_verdict_and_nothing_else() -> None:
 
 
 def test_where_pressure_has_no_largest_value_flash_has_none_either() -> None:
-    """The flank is loaded at the base circle, but not at the corner A1, where the feature line begins.
-
-    The flash temperature on the feature line is therefore finite, but no largest flash temperature is stated.
-    """
+    """The flank is loaded at the base circle, but not at the corner A1, where the feature line begins."""
+    # The flash temperature on the feature line is therefore finite, but no largest flash temperature is stated.
     lifted = LoadDistributionInputs(UNDERCUT_PAIR, Load(50.0, angular_speed(1000)), Modifications(helix_slope=-60e-6))
     result = closed_form(lifted)
     assert np.all(np.isfinite(result.path.blok_flash))
@@ -244,11 +242,9 @@ def test_no_film_where_the_feature_line_is_not_loaded(inputs: LoadDistributionIn
 
 @pytest.mark.parametrize("seed", first(3, range(6)))
 def test_modifications_are_not_blamed_where_none_was_given(seed: int) -> None:
-    """Unmodified flanks touch wherever they are loaded.
-
-    If a film is missing, the warning therefore names only the torque or the speed, and only if this input is zero
-    or almost zero.
-    """
+    """Unmodified flanks touch wherever they are loaded."""
+    # If a film is missing, the warning therefore names only the torque or the speed, and only if this input is zero or
+    # almost zero.
     drawn = random_pair(np.random.default_rng([5, seed]))
     plain = replace(drawn.distribution, modifications=Modifications())
     for load, blamed in (

@@ -109,10 +109,8 @@ def test_exchanging_driver_and_driven_mirrors_everything(inputs: LoadDistributio
 def test_unmodified_teeth_share_as_minimum_elastic_energy_does(
     inputs: GearPairInputs, torque: float, model: Model
 ) -> None:
-    """By Pedrero, minimum elastic energy gives the line load F v/int v dl at a point with the stiffness v.
-
-    The load balance gives the same line load: v times the transmission error.
-    """
+    """By Pedrero, minimum elastic energy gives the line load F v/int v dl at a point with the stiffness v."""
+    # The load balance gives the same line load: v times the transmission error.
     linear = replace(model, contact="linear")
     result = solve(LoadDistributionInputs(inputs, Load(torque, 100.0), model=linear, resolution=COARSE))
     plane, table = result.path_of_contact.plane, result.balance.mesh.compliance.constant

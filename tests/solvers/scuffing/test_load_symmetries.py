@@ -76,10 +76,8 @@ def test_a_spur_pair_counted_from_its_other_end(random: np.random.Generator) -> 
 
 @seeds(40, 1000)
 def test_a_pair_of_the_other_hand(random: np.random.Generator) -> None:
-    """The face is measured from the end that meshes first. The sign of the helix angle therefore has no effect.
-
-    With a negative helix angle, there were once no contact lines across the face.
-    """
+    """The face is measured from the end that meshes first. The sign of the helix angle therefore has no effect."""
+    # With a negative helix angle, there were once no contact lines across the face.
     inputs = draw_load(random)
     image = changed(inputs, {"gears.helix_angle": -inputs.gears.helix_angle})
     assert not differences(solve(inputs), solve(image), tolerance=0.0)
@@ -87,10 +85,8 @@ def test_a_pair_of_the_other_hand(random: np.random.Generator) -> None:
 
 @seeds(40, 1000)
 def test_a_line_that_touches_in_a_corner_leads_no_teeth(random: np.random.Generator) -> None:
-    """Rounding errors once decided whether a line that only touches a corner counts.
-
-    The mean mesh stiffnesses of similar pairs then differed by 0.2 %.
-    """
+    """Rounding errors once decided whether a line that only touches a corner counts."""
+    # The mean mesh stiffnesses of similar pairs then differed by 0.2 %.
     inputs = draw_load(random)
     mesh = mesh_of(inputs)
     plane, rolls = mesh.mesh.plane, mesh.rolls
@@ -111,10 +107,8 @@ def test_the_next_pitch_is_like_the_one_before(random: np.random.Generator) -> N
 
 
 def test_a_crest_narrower_than_a_slice_carries_a_light_load_alone() -> None:
-    """The crest lies between the places where the solver once searched for loaded parts of a line.
-
-    The solver then found no solution or a lower crest.
-    """
+    """The crest lies between the places where the solver once searched for loaded parts of a line."""
+    # The solver then found no solution or a lower crest.
     inputs = changed(draw_flank(np.random.default_rng(0)), {"gears.helix_angle": 0.0, "resolution": COARSE})
     width = inputs.gears.face_width
     middle, half = 12.5 / 25 * width, 0.45 / 25 * width
@@ -127,10 +121,8 @@ def test_a_crest_narrower_than_a_slice_carries_a_light_load_alone() -> None:
 
 
 def test_two_crests_of_a_lead_curve_carry_whatever_the_number_of_slices() -> None:
-    """The slices once lay beside one of the crests.
-
-    There was then no balance, or the other crest carried 50 % more load.
-    """
+    """The slices once lay beside one of the crests."""
+    # There was then no balance, or the other crest carried 50 % more load.
     inputs = changed(draw_load(np.random.default_rng([38, 72])), {"gears.helix_angle": 0.0})
     loads = [
         solve(changed(inputs, {"resolution.slices": slices})).load.max_line_load for slices in (15, 25, 31, 51, 201)

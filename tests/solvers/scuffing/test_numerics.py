@@ -85,10 +85,8 @@ def test_the_virtual_gear_of_a_spur_gear_is_the_gear() -> None:
 
 
 def half_space_approach(load: float, x: float, section: str) -> float:
-    """Return the approach of the flanks [m] along the transverse line of action.
-
-    The approach is the sum of the bending of both teeth and of their flattening by the half-space formula.
-    """
+    """Return the approach of the flanks [m] along the transverse line of action."""
+    # The approach is the sum of the bending of both teeth and of their flattening by the half-space formula.
     pair = gear_pair(paper_gears(3))
     path = path_of_contact(pair)
     inclination = path.plane.cos_base_helix
@@ -146,11 +144,9 @@ def test_half_space_contact_is_several_times_softer_than_the_printed_term() -> N
 
 @pytest.mark.parametrize("pair", [1, 4])
 def test_the_linear_balance_is_the_exact_root_by_sorting(pair: int) -> None:
-    """With linear contact, the transmission error is the exact root of Xue Eqs. 8 and 9.
-
-    The test sorts the slices by their gaps, and sums stiffness and stiffness times gap. The root is the first
-    transmission error that is below the gap of the next slice.
-    """
+    """With linear contact, the transmission error is the exact root of Xue Eqs. 8 and 9."""
+    # The test sorts the slices by their gaps, and sums stiffness and stiffness times gap. The root is the first
+    # transmission error that is below the gap of the next slice.
     shape = replace(PAPER_MODIFICATIONS, helix_slope=40e-6)
     result = solve_load_distribution(paper_pair(pair, shape))
     plane, mesh = result.path_of_contact.plane, result.balance.mesh
@@ -260,10 +256,8 @@ def test_harmonics_rebuild_the_error() -> None:
     ],
 )
 def test_modifications_act_where_they_are_named(name: str, amplitude: float, expected: list[float]) -> None:
-    """The gaps are compared at A, at E and at the middle of the path, each at half the face width.
-
-    The gaps at both ends of the face are compared at the middle of the path.
-    """
+    """The gaps are compared at A, at E and at the middle of the path, each at half the face width."""
+    # The gaps at both ends of the face are compared at the middle of the path.
     g, b = PATH_1.length, 20e-3
     x, y = np.array([0, g, g / 2, g / 2, g / 2]), np.array([b / 2, b / 2, b / 2, 0, b])
     found = gaps_at(gap(Modifications(**{name: amplitude}), PATH_1), x, y)
@@ -300,10 +294,8 @@ def test_working_pressure_angle_solves_the_involute_equation() -> None:
 
 
 def test_a_lead_curve_is_a_gap_over_the_face() -> None:
-    """The linear part of a lead curve acts as a helix slope, and its parabolic part acts as lead crowning.
-
-    At the stations, the table of the lead curve has exactly the given gaps.
-    """
+    """The linear part of a lead curve acts as a helix slope, and its parabolic part acts as lead crowning."""
+    # At the stations, the table of the lead curve has exactly the given gaps.
     stations = np.linspace(0.0, 20e-3, 41)
     eta = stations / 20e-3 - 0.5
     curve = LeadCurve(tuple(stations), tuple(15e-6 * eta + 40e-6 * eta**2))
@@ -343,10 +335,8 @@ def test_lead_curves_without_sense_are_refused(position: tuple[float, ...], amou
 
 
 def test_equal_gears_are_stiffest_at_the_pitch_point_without_rounding() -> None:
-    """The profile parameter at the stiffest point is exactly 0.
-
-    An earlier version gave 2e-16, and a figure stated this number as the place.
-    """
+    """The profile parameter at the stiffest point is exactly 0."""
+    # An earlier version gave 2e-16, and a figure stated this number as the place.
     gears = GearPairInputs(
         GearTeeth(31), GearTeeth(31), 4e-3, 60e-3, helix_angle=radians(30), rack_tip_radius=GROUND_FILLET
     )

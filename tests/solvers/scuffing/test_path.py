@@ -43,10 +43,8 @@ STRONG = with_torque(paper_pair(1), 9.5 * paper_pair(1).load.pinion_torque)
 
 @pytest.mark.parametrize("points", POINTS)
 def test_relieved_pair(points: int) -> None:
-    """The largest flash temperature is 25.5 K, both along the path and at points that are solved alone.
-
-    An earlier version gave 48, 48, 271 and 3026 K on paths of 25, 50, 100 and 200 points.
-    """
+    """The largest flash temperature is 25.5 K, both along the path and at points that are solved alone."""
+    # An earlier version gave 48, 48, 271 and 3026 K on paths of 25, 50, 100 and 200 points.
     result = modified_pairs.check_path(modified_pairs.relieved_pair(points), every=points // 5)
     assert result.flash.thermal_ehl_max == pytest.approx(25.5, abs=0.2)
     assert result.safety.thermal_ehl_factor == pytest.approx(4.59, abs=0.03)
@@ -55,10 +53,8 @@ def test_relieved_pair(points: int) -> None:
 @pytest.mark.parametrize("slope", first(1, [-20e-6, 20e-6, 0.0]))
 @pytest.mark.parametrize("points", POINTS)
 def test_turbo_pair(slope: float, points: int) -> None:
-    """The largest flash temperature is between 8 and 17 K.
-
-    An earlier version gave 77, 248 and 72 K for helix slopes of 0, -20 and 20 um on paths of 50 points.
-    """
+    """The largest flash temperature is between 8 and 17 K."""
+    # An earlier version gave 77, 248 and 72 K for helix slopes of 0, -20 and 20 um on paths of 50 points.
     result = modified_pairs.check_path(replace(modified_pairs.turbo_pair(slope), path_points=points), every=points // 4)
     assert 8.0 < result.flash.thermal_ehl_max < 17.0
     assert result.unsolved_points == 0
@@ -73,10 +69,8 @@ def test_random_pairs(seed: int) -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(60))
 def test_many_random_pairs_and_backwards(seed: int) -> None:
-    """About 25 points of every path are compared with the same points solved alone.
-
-    Then the path is solved backwards.
-    """
+    """About 25 points of every path are compared with the same points solved alone."""
+    # Then the path is solved backwards.
     inputs = modified_pairs.random_pair(np.random.default_rng([2, seed]))
     try:
         result = modified_pairs.check_path(inputs, every=inputs.path_points // 25)
@@ -112,10 +106,8 @@ def test_direction_does_not_matter(inputs: ScuffingInputs) -> None:
 
 @pytest.mark.parametrize("inputs", first(1, stored(ScuffingInputs, "scuffing", "twice the points")))
 def test_number_of_points_does_not_decide(inputs: ScuffingInputs) -> None:
-    """Twice as many points change no summary number by more than 1 % or 0.1 K.
-
-    The reason is that every path contains the points at which the closed formulas have their extremes.
-    """
+    """Twice as many points change no summary number by more than 1 % or 0.1 K."""
+    # The reason is that every path contains the points at which the closed formulas have their extremes.
     check_number_of_points(inputs)
 
 
@@ -140,10 +132,8 @@ def check_number_of_points(inputs: ScuffingInputs) -> None:
 
 
 def test_a_path_with_unsolved_points_gives_no_verdict() -> None:
-    """With an oil of 80 Pa s instead of 0.08 Pa s, some points have no solution, and the path has no safety factor.
-
-    An earlier version solved only 20 of 50 points, and still stated a safety factor of 1.84 and a full film.
-    """
+    """With an oil of 80 Pa s instead of 0.08 Pa s, some points have no solution, and the path has no safety factor."""
+    # An earlier version solved only 20 of 50 points, and still stated a safety factor of 1.84 and a full film.
     inputs = replace(modified_pairs.relieved_pair(8), lubricant=Lubricant(viscosity=80.0), film=AS_GIVEN)
     result = solve_scuffing(inputs)
     missing = result.path.status.count("no_solution") + result.path.status.count("refused")
@@ -176,11 +166,9 @@ def test_a_refused_point_counts_and_takes_the_verdict() -> None:
 
 
 def test_a_point_too_light_to_matter_keeps_the_verdict() -> None:
-    """Of 200 points of the relieved pair, a point with almost no load is refused.
-
-    Even under the least permissible load, this point would not be the hottest, so that the path keeps its safety
-    factor.
-    """
+    """Of 200 points of the relieved pair, a point with almost no load is refused."""
+    # Even under the least permissible load, this point would not be the hottest, so that the path keeps its safety
+    # factor.
     result = solve_scuffing(replace(modified_pairs.relieved_pair(200), film=AS_GIVEN))
     assert result.path.status.count("refused") == result.unsolved_points > 0
     assert result.flash.thermal_ehl_max is not None
@@ -199,10 +187,8 @@ def test_lightest_load_is_the_edge_of_what_is_refused() -> None:
 
 @pytest.mark.parametrize("points", [10, 50, 100])
 def test_a_path_that_reaches_a_base_circle_has_no_maximum(points: int) -> None:
-    """The undercut pair with 12 and 60 teeth has no largest flash temperature and no safety factor.
-
-    An earlier version gave safety factors by Blok of 3.8, 2.4 and 2.1 on paths of 10, 50 and 100 points.
-    """
+    """The undercut pair with 12 and 60 teeth has no largest flash temperature and no safety factor."""
+    # An earlier version gave safety factors by Blok of 3.8, 2.4 and 2.1 on paths of 10, 50 and 100 points.
     distribution = LoadDistributionInputs(UNDERCUT_PAIR, replace(PAPER_LOAD, pinion_torque=50.0))
     inputs = ScuffingInputs(
         distribution,
@@ -365,10 +351,8 @@ def test_a_load_too_light_for_an_elastic_contact_is_refused(power: float) -> Non
 
 @pytest.mark.parametrize(("pair", "count"), first(1, [(1, 7), (1, 19), (4, 19)]))
 def test_torque_from_nominal_to_a_millionth(pair: int, count: int) -> None:
-    """Large torques are solved, and all torques below a limit are refused as too light.
-
-    If only some points of a path are refused, all other points have numbers.
-    """
+    """Large torques are solved, and all torques below a limit are refused as too light."""
+    # If only some points of a path are refused, all other points have numbers.
     refusals: set[str] = set()
     nominal = paper_pair(pair)
     for factor in 10.0 ** np.linspace(0.0, -6.0, count):
@@ -401,11 +385,9 @@ def test_temperature_out_of_range_names_the_bulk_temperature() -> None:
 
 @pytest.mark.ci
 def test_a_path_that_nowhere_converges_ends_with_its_steps(monkeypatch: pytest.MonkeyPatch) -> None:
-    """With tolerances of zero no point converges.
-
-    The first 12 points may take all the steps of a contact that is solved alone, and each further point may take a
-    tenth of these steps.
-    """
+    """With tolerances of zero no point converges."""
+    # The first 12 points may take all the steps of a contact that is solved alone, and each further point may take a
+    # tenth of these steps.
     monkeypatch.setattr(continuation, "TIGHT", (0.0, 0.0))
     monkeypatch.setattr(continuation, "LOOSE", (0.0, 0.0))
     taken: list[float] = []

@@ -70,10 +70,8 @@ def test_peaked_flanks_have_their_maxima_with_few_slices(torque: float, shape: M
 
 
 def test_the_line_load_of_a_sharp_edge_in_closed_form() -> None:
-    """A steep helix slope leaves a spur flank in contact only near one end of the face.
-
-    The line load falls linearly from w at this end, and the force is F = w^2 / (2 k slope).
-    """
+    """A steep helix slope leaves a spur flank in contact only near one end of the face."""
+    # The line load falls linearly from w at this end, and the force is F = w^2 / (2 k slope).
     slope = 1e-3 / 20e-3
     inputs = with_torque(paper_pair(1, Modifications(helix_slope=1e-3), Model(contact="linear")), 1.0)
     result = solve_load_distribution(replace(inputs, gears=replace(inputs.gears, helix_angle=0.0)))

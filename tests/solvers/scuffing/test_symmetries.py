@@ -109,11 +109,9 @@ def flash_at(design: LoadDistributionInputs, found: Scuffing, profile: float, fa
 
 @examples(FEW, MANY, designs())
 def test_a_pair_is_as_safe_the_other_way_round(design: LoadDistributionInputs) -> None:
-    """The safety of a pair stays the same if the wheel drives instead of the pinion.
-
-    The path then leads from E to A, and the other end of the face meshes first. The map has its default size of 201 x
-    101 points. On a map of 21 x 11 points, the search along a slanting ridge misses 0.3 % of the largest temperature.
-    """
+    """The safety of a pair stays the same if the wheel drives instead of the pinion."""
+    # The path then leads from E to A, and the other end of the face meshes first. The map has its default size of 201 x
+    # 101 points. On a map of 21 x 11 points, the search along a slanting ridge misses 0.3 % of the largest temperature.
     design = replace(design, resolution=replace(design.resolution, profile_points=201, face_points=101))
     gears, shape = design.gears, design.modifications
     ratio = gears.wheel.teeth / gears.pinion.teeth
@@ -160,10 +158,8 @@ def test_no_line_of_the_flank_is_hotter_or_safer(design: LoadDistributionInputs,
 
 
 def test_the_map_is_the_formula_at_its_points() -> None:
-    """The map evaluates Blok's formula once per row, and scales this value by the load to the power 3/4.
-
-    The result is the same as the formula at every point.
-    """
+    """The map evaluates Blok's formula once per row, and scales this value by the load to the power 3/4."""
+    # The result is the same as the formula at every point.
     design = turbo_gear(GROUND).mesh.distribution
     distribution = solve_load_distribution(design)
     found = map_flash(design, distribution)
@@ -191,10 +187,8 @@ def small_spur_pair(slope: float) -> ScuffingInputs:
 
 
 def test_a_corner_off_the_feature_line_decides_and_a_note_says_so() -> None:
-    """The feature line meets the loaded end of the face at A or at E, depending on the sign of the helix slope.
-
-    For one of the two signs, the safety factor of the line alone is too large.
-    """
+    """The feature line meets the loaded end of the face at A or at E, depending on the sign of the helix slope."""
+    # For one of the two signs, the safety factor of the line alone is too large.
     one, other = (solve_scuffing(small_spur_pair(slope)) for slope in (20e-6, -20e-6))
     assert_as_safe(one, other)
     lines = [found.safety.feature_line_factor for found in (one, other) if found.safety is not None]
@@ -210,10 +204,8 @@ def test_a_corner_off_the_feature_line_decides_and_a_note_says_so() -> None:
 
 
 def test_face_load_factor_of_an_even_load_is_one() -> None:
-    """The face load factor is at least 1 by definition.
-
-    An earlier version gave 0.99999 at a helix angle of 45 degrees.
-    """
+    """The face load factor is at least 1 by definition."""
+    # An earlier version gave 0.99999 at a helix angle of 45 degrees.
     gears = GearPairInputs(
         GearTeeth(20), GearTeeth(60), 2e-3, 20e-3, helix_angle=np.radians(45.0), rack_tip_radius=GROUND_FILLET
     )

@@ -68,10 +68,8 @@ def test_a_newtonian_contact_is_solved_or_says_that_it_is_not() -> None:
 
 @pytest.mark.slow
 def test_newtonian_contacts_of_the_grid_and_at_random() -> None:
-    """Near pure rolling nothing limits the stress of a Newtonian oil.
-
-    Four contacts of the grid are not solved. Their slide-roll ratios are at most 0.1.
-    """
+    """Near pure rolling nothing limits the stress of a Newtonian oil."""
+    # Four contacts of the grid are not solved. Their slide-roll ratios are at most 0.1.
     newtonian = Model(rheology="newtonian")
     assert check_all(grid_contacts(newtonian)) >= 195
     assert check_all(random_contacts(newtonian, 500, seed=1)) >= 498
@@ -89,13 +87,11 @@ def test_isothermal_contacts(rheology: str, pressure: float, speed: float, visco
 
 
 def test_a_spike_without_a_limit_is_said_not_to_converge() -> None:
-    """The friction coefficient of an isothermal Newtonian contact at 1 GPa and 15 m/s does not converge.
-
-    The coefficient is 1405, 3512 and 5682 on 121, 241 and 481 nodes. Half of the nodes with interpolated pressures
-    would keep the spike of all nodes: after one Newton step on them the error would seem to be 3.4 %, and not 38 %. The
-    stated error is the whole difference between both meshes, because the pressure falls steeply from one node to the
-    next.
-    """
+    """The friction coefficient of an isothermal Newtonian contact at 1 GPa and 15 m/s does not converge."""
+    # The coefficient is 1405, 3512 and 5682 on 121, 241 and 481 nodes. Half of the nodes with interpolated pressures
+    # would keep the spike of all nodes: after one Newton step on them the error would seem to be 3.4 %, and not 38 %.
+    # The stated error is the whole difference between both meshes, because the pressure falls steeply from one node to
+    # the next.
     model = Model(thermal=False, rheology="newtonian")
     inputs = at_pressure(1e9, 0.5, 15.0, 0.08, 4e-3, model)
     result, coarse = solve(inputs), solve(replace(inputs, model=replace(model, nodes=241, refine_mesh=False)))
@@ -134,11 +130,9 @@ def test_exchanged_surfaces_exchange_the_results(rheology: str) -> None:
 
 @pytest.mark.parametrize(("rheology", "nodes", "load"), [("newtonian", 121, 1e4), ("ree_eyring", 361, 2.73e5)])
 def test_perfect_conductors_make_it_isothermal(rheology: str, nodes: int, load: float) -> None:
-    """If film and solids carry all heat away, the thermal film agrees with the isothermal film to within 0.4 %.
-
-    The 20 intervals across the thermal film change the flow coefficient A by 1/400. Both films also split the flux of a
-    Ree-Eyring oil differently into its parts, which costs 0.8 % on 121 nodes.
-    """
+    """If film and solids carry all heat away, the thermal film agrees with the isothermal film to within 0.4 %."""
+    # The 20 intervals across the thermal film change the flow coefficient A by 1/400. Both films also split the flux of
+    # a Ree-Eyring oil differently into its parts, which costs 0.8 % on 121 nodes.
     metal = Solid(thermal_conductivity=1e12)
     model = replace(Model(nodes=nodes), rheology=rheology)
     at = replace(POINT_A, line_load=load)
@@ -152,10 +146,8 @@ def test_perfect_conductors_make_it_isothermal(rheology: str, nodes: int, load: 
 
 
 def test_warmer_surroundings_shift_a_film_without_viscosity_change() -> None:
-    """If all temperatures rise by 20 K, the contact with Barus' law stays the same, but is 20 K warmer.
-
-    The reference temperature of the oil also rises by 20 K.
-    """
+    """If all temperatures rise by 20 K, the contact with Barus' law stays the same, but is 20 K warmer."""
+    # The reference temperature of the oil also rises by 20 K.
     oil = Lubricant(pressure_viscosity_law="barus", pressure_viscosity=12e-9, compressible=False)
     one, other = (
         solve(

@@ -84,10 +84,8 @@ class At(NamedTuple):
 
     @property
     def free(self) -> np.ndarray:
-        """Return the indices of all unknowns (P, H0) except the pressures that are pinned to zero.
-
-        The pressures at both ends and in the broken film stay at P = 0, where the viscosity has a kink.
-        """
+        """Return the indices of all unknowns (P, H0) except the pressures that are pinned to zero."""
+        # The pressures at both ends and in the broken film stay at P = 0, where the viscosity has a kink.
         pinned = self.state.cavitated.copy()
         pinned[[0, -1]] = True
         return np.append(np.flatnonzero(~pinned), pinned.size)
@@ -154,11 +152,9 @@ def of_kernels(at: At) -> Residual:
 
 
 def heat_slope_of_kernels(at: At, direction: FloatArray) -> FloatArray:
-    """Return the derivative of the heat residual in a direction, as the kernels linearise the columns.
-
-    The columns are not factored yet. The row of a wall yields the heat flux into the wall, and this flux warms the
-    surface downstream.
-    """
+    """Return the derivative of the heat residual in a direction, as the kernels linearise the columns."""
+    # The columns are not factored yet. The row of a wall yields the heat flux into the wall, and this flux warms the
+    # surface downstream.
     n, k = at.state.temperature.shape
     column, surfaces, m = at.work.heat.column, at.work.heat.surfaces, k - 1
     step, dt = direction[: n + 1], direction[n + 1 :].reshape(n, k)
@@ -200,11 +196,9 @@ def assert_near(found: FloatArray, expected: FloatArray, tolerance: float) -> No
 
 @rheologies
 def test_residual_of_a_thermal_contact(rheology: str, count: int) -> None:
-    """The residuals agree to 1e-12.
-
-    This tolerance is relative to the largest flux that the surfaces drag, to the largest heat in the film, and to the
-    largest temperature. For the dimensionless load the tolerance is absolute.
-    """
+    """The residuals agree to 1e-12."""
+    # This tolerance is relative to the largest flux that the surfaces drag, to the largest heat in the film, and to the
+    # largest temperature. For the dimensionless load the tolerance is absolute.
     assert len(states(THERMAL[rheology], count)) == count
     for at in states(THERMAL[rheology], count):
         found, expected = of_kernels(at), at.residual(at.unknowns)
@@ -269,10 +263,8 @@ def test_derivative_of_mass_by_temperatures(rheology: str, count: int) -> None:
 @rheologies
 @pytest.mark.parametrize("of_pressure", [True, False])
 def test_derivative_of_heat(rheology: str, count: int, *, of_pressure: bool) -> None:
-    """The heat residual is differentiated by all pressures and H0, or by all temperatures.
-
-    The rows of the surfaces are compared separately, because their residuals are temperatures.
-    """
+    """The heat residual is differentiated by all pressures and H0, or by all temperatures."""
+    # The rows of the surfaces are compared separately, because their residuals are temperatures.
     for seed, at in enumerate(states(THERMAL[rheology], count)):
         direction = directions(at, of_pressure=of_pressure, seed=seed)
         found, expected = heat_slope_of_kernels(at, direction), at.slope(direction).heat
@@ -282,10 +274,8 @@ def test_derivative_of_heat(rheology: str, count: int, *, of_pressure: bool) -> 
 
 @pytest.mark.parametrize("rheology", THERMAL)
 def test_newtons_step_solves_the_linearised_equations(rheology: str) -> None:
-    """The step by elimination of the columns, march and GMRES agrees with a dense solution to within 2 %.
-
-    GMRES stops if the remaining error is below 1 %.
-    """
+    """The step by elimination of the columns, march and GMRES agrees with a dense solution to within 2 %."""
+    # GMRES stops if the remaining error is below 1 %.
     at = states(THERMAL[rheology], FEW)[0]
     n, k = at.state.temperature.shape
     size = n + 1 + n * k

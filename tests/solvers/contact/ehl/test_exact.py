@@ -45,12 +45,9 @@ def places(*columns: tuple[float, float, float]) -> RecordArray:
 
 
 def couette_errors(sliding: float, nodes: int) -> tuple[float, float]:
-    """Return the relative errors of temperature rise and stress in a flow between two walls at 360 K.
-
-    The exact solution is that of Nahme for
-    eta = eta0 e^(-beta (t - t_w)), Na = beta eta0 du^2/lambda: dt = ln(1 + Na/8)/beta and
-    tau = (8 lambda eta0/beta)^1/2/h asinh((Na/8)^1/2)/(1 + Na/8)^1/2.
-    """
+    """Return the relative errors of temperature rise and stress in a flow between two walls at 360 K."""
+    # The exact solution is that of Nahme for eta = eta0 e^(-beta (t - t_w)), Na = beta eta0 du^2/lambda: dt = ln(1 +
+    # Na/8)/beta and tau = (8 lambda eta0/beta)^1/2/h asinh((Na/8)^1/2)/(1 + Na/8)^1/2.
     height, wall, beta = 0.5e-6, 360.0, 0.042
     oil = Lubricant(viscosity=20.0, temperature_viscosity=beta, pressure_viscosity_law="barus", compressible=False)
     fixed = constants(oil, "newtonian")._replace(
@@ -92,10 +89,8 @@ def test_thermal_couette_flow_converges_with_second_order(sliding: float) -> Non
 
 
 def test_uniform_strip_source() -> None:
-    """Xue Eq. 24. Uniform heat on a strip of 2 b warms the end of the strip by 2 q sqrt(2 b/(pi rho c u lambda)).
-
-    The computed value agrees to within 0.1 %.
-    """
+    """Xue Eq. 24. Uniform heat on a strip of 2 b warms the end of the strip by 2 q sqrt(2 b/(pi rho c u lambda))."""
+    # The computed value agrees to within 0.1 %.
     grid = grid_for(0.2, 121)
     inside = (np.abs(grid.x) <= 1.0).astype(float)
     end = int(np.flatnonzero(inside)[-1])
@@ -118,10 +113,8 @@ def test_square_root_of_distance_heats_linearly() -> None:
 
 
 def test_hertz_pressure_flattens_the_parabola() -> None:
-    """Xue Eq. 21. With Hertzian pressure, X^2/2 + K P is constant inside the contact.
-
-    The error arises because the computed pressure is linear between the nodes.
-    """
+    """Xue Eq. 21. With Hertzian pressure, X^2/2 + K P is constant inside the contact."""
+    # The error arises because the computed pressure is linear between the nodes.
     defects = []
     for nodes in (241, 481):
         x = np.cos(np.linspace(np.pi, 0.0, nodes))
@@ -137,10 +130,8 @@ def test_hertz_pressure_flattens_the_parabola() -> None:
     ("p", "g", "h"), [(0.9e9, 3e7, 0.5e-6), (0.2e9, -4e7, 0.3e-6), (1.5e9, 1e6, 0.5e-6), (1e7, 1e4, 3e-6)]
 )
 def test_column_at_one_temperature_is_the_closed_form(rheology: str, p: float, g: float, h: float) -> None:
-    """Xue Eq. 17. Flux and mid-film stress on 200 intervals agree with the closed form for a uniform temperature.
-
-    The flow coefficients A and B differ from those of the closed form, but the flux does not.
-    """
+    """Xue Eq. 17. Flux and mid-film stress on 200 intervals agree with the closed form for a uniform temperature."""
+    # The flow coefficients A and B differ from those of the closed form, but the flux does not.
     given_ = constants(Lubricant(), rheology)
     film, coefficients = film_arrays(1, 201), flow_coefficients(1)
     evaluate_columns(given_, np.full((1, 201), 360.0), 0, 1, places((p, g, h)), film, coefficients)
@@ -153,10 +144,8 @@ def test_column_at_one_temperature_is_the_closed_form(rheology: str, p: float, g
 
 @pytest.mark.parametrize("rheology", ["newtonian", "ree_eyring"])
 def test_derivatives_of_a_column(rheology: str) -> None:
-    """The derivatives of ln A, of B and of the mid-film stress agree with central differences.
-
-    These are the derivatives with respect to p, G, h and one temperature.
-    """
+    """The derivatives of ln A, of B and of the mid-film stress agree with central differences."""
+    # These are the derivatives with respect to p, G, h and one temperature.
     given_ = constants(Lubricant(), rheology)
     film, coefficients = film_arrays(1, 21), flow_coefficients(1)
     t = 380.0 + 40.0 * np.random.default_rng(0).random(21)

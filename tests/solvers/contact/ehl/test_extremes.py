@@ -158,10 +158,8 @@ def test_viscosity_beyond_every_number_is_refused() -> None:
 
 @pytest.mark.parametrize("thermal", [True, False])
 def test_load_from_heavy_to_none(thermal: bool) -> None:
-    """Contacts are solved if the expected film is at most 10^4 times as thick as b^2/R, and refused at lower loads.
-
-    The film of the solved contacts becomes thicker as the load falls.
-    """
+    """Contacts are solved if the expected film is at most 10^4 times as thick as b^2/R, and refused at lower loads."""
+    # The film of the solved contacts becomes thicker as the load falls.
     given_ = changed(POINT, {"model.thermal": thermal})
     films: list[float] = []
     codes: list[str | None] = []
@@ -215,11 +213,9 @@ def test_rigid_film_of_martin() -> None:
 @pytest.mark.parametrize("m", [0.05, 0.02])
 @pytest.mark.parametrize("thermal", [True, False])
 def test_light_load_is_the_film_between_rigid_cylinders(m: float, thermal: bool) -> None:
-    """The film agrees to within 0.2 % with the quadrature for a film that begins at the first node of the mesh.
-
-    Because the film begins there, it is 4 to 5 % thinner than Martin's film. If the thermal film is
-    divided into 20 intervals, the computed flow under pressure is 1/400 too small, and the film is 1/400 thicker.
-    """
+    """The film agrees to within 0.2 % with the quadrature for a film that begins at the first node of the mesh."""
+    # Because the film begins there, it is 4 to 5 % thinner than Martin's film. If the thermal film is divided into 20
+    # intervals, the computed flow under pressure is 1/400 too small, and the film is 1/400 thicker.
     result = rigid_contact(m, thermal)
     assert result.film.minimum is not None
     film, radius = result.film.minimum, 0.01

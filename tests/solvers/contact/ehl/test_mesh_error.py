@@ -110,13 +110,11 @@ def test_isothermal_contacts_have_no_error_of_heat() -> None:
 
 
 def check_doubled(inputs: LineContactInputs, nodes: str) -> None:
-    """Check that twice the nodes move every number by less than 1 %, or by less than the stated error allows.
-
-    Along the contact, 1.5 times the stated error is allowed; across the film, the stated error, but at most 1.5 %.
-    Twice the nodes across the film mostly move the friction coefficient by 0.3 %. In some hundred contacts one number
-    moved by more than 1 %: a friction coefficient of 0.0064 moved by 1.06 %. This light contact (M = 1, L = 36) has a
-    spike in its centre, which leaves 3 to 7 % of the coefficient uncertain anyway.
-    """
+    """Check that twice the nodes move every number by less than 1 %, or by less than the stated error allows."""
+    # Along the contact, 1.5 times the stated error is allowed; across the film, the stated error, but at most 1.5 %.
+    # Twice the nodes across the film mostly move the friction coefficient by 0.3 %. In some hundred contacts one number
+    # moved by more than 1 %: a friction coefficient of 0.0064 moved by 1.06 %. This light contact (M = 1, L = 36) has a
+    # spike in its centre, which leaves 3 to 7 % of the coefficient uncertain anyway.
     result, doubled = solve(inputs), solve(changed(inputs, {nodes: 2 * value_at(inputs, nodes) - 1}))
     if "no_solution" in {result.status, doubled.status}:
         return
@@ -247,10 +245,8 @@ def test_what_fails_is_no_solution(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_it_is_cheap(point_a: LineContactResult) -> None:
-    """The check takes 0.1 ms, less than 2 % of the time for a contact that starts from its neighbours on a path.
-
-    The bound leaves room for a busy machine.
-    """
+    """The check takes 0.1 ms, less than 2 % of the time for a contact that starts from its neighbours on a path."""
+    # The bound leaves room for a busy machine.
     departure(INPUTS, point_a.curves, point_a.field)
     start = process_time()
     for _ in range(50):

@@ -58,10 +58,8 @@ def test_neighbours_start_from_each_other() -> None:
 
 
 def test_guesses_are_exact_for_polynomials() -> None:
-    """From five states the guess is exact for polynomials of fourth degree.
-
-    In a row that has just jumped, the guess is the last value alone.
-    """
+    """From five states the guess is exact for polynomials of fourth degree."""
+    # In a row that has just jumped, the guess is the last value alone.
     places = np.arange(6.0)[:, None, None]
     smooth = 300.0 + places - 0.3 * places**2 + 0.05 * places**3 - 0.02 * places**4
     rows = np.concatenate([smooth, 2.0 * smooth], axis=1) * np.array([1.0, 0.5])
@@ -74,20 +72,16 @@ def test_guesses_are_exact_for_polynomials() -> None:
 
 
 def test_guesses_take_only_as_many_states_as_told_the_last() -> None:
-    """The next guess continues the line through the last two states.
-
-    The earlier states lie on another line. A guess from four states would have missed the last known state.
-    """
+    """The next guess continues the line through the last two states."""
+    # The earlier states lie on another line. A guess from four states would have missed the last known state.
     assert path._extrapolated(np.array([[0.0], [0.0], [1.0], [2.0], [3.0]])) == pytest.approx(np.array([4.0]))
     assert path._extrapolated(np.array([[7.0]])) == pytest.approx(np.array([7.0]))
     assert path._extrapolated(np.array([[7.0], [9.0]])) == pytest.approx(np.array([11.0]))
 
 
 def test_what_a_path_leaves_is_converged(monkeypatch: pytest.MonkeyPatch) -> None:
-    """One more Newton step moves a solution by less than a tenth of the tolerance.
-
-    This also holds if the last steps reused the Jacobian.
-    """
+    """One more Newton step moves a solution by less than a tenth of the tolerance."""
+    # This also holds if the last steps reused the Jacobian.
     moved: list[Any] = []
     warm = continuation.polish
 
@@ -145,11 +139,9 @@ def near_the_pitch_point() -> list[LineContactInputs]:
 
 
 def test_hard_points_are_solved_as_they_are_alone() -> None:
-    """Contacts that are solved along a path and one by one have the same film and the same friction to 0.3 %.
-
-    In the past, films differed by up to 1.3 %, because the steep fall of pressure lay one node away from its place in
-    the contact alone.
-    """
+    """Contacts that are solved along a path and one by one have the same film and the same friction to 0.3 %."""
+    # In the past, films differed by up to 1.3 %, because the steep fall of pressure lay one node away from its place in
+    # the contact alone.
     alone = [solve(inputs) for inputs in near_the_pitch_point()]
     forward, backward = solve_path(near_the_pitch_point()), solve_path(near_the_pitch_point()[::-1])[::-1]
     for expected, *found in zip(alone, forward, backward, strict=True):
@@ -196,11 +188,9 @@ def test_bad_points_and_mixed_models_are_refused_at_once() -> None:
 
 
 def test_another_mesh_costs_no_steps() -> None:
-    """A change of the mesh costs no additional Newton steps.
-
-    The load falls to a fifth, over six meshes. In the past, a pressure that remained at the end of the inlet raised the
-    number of steps from 5 to 60.
-    """
+    """A change of the mesh costs no additional Newton steps."""
+    # The load falls to a fifth, over six meshes. In the past, a pressure that remained at the end of the inlet raised
+    # the number of steps from 5 to 60.
     at = contacts(1)[0]
     falling = [scaled(at, 0.96**k, "contact.line_load") for k in range(40)]
     results = solve_path(falling)
