@@ -15,6 +15,7 @@ FIELDS = "fields"
 """Name of the chapter below which its page shows the table of all fields."""
 
 NAMES = (
+    "first-pair",
     "coupling",
     "pumping",
     "load-distribution",

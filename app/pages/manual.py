@@ -25,6 +25,7 @@ from app.manual import FIELDS, NAMES, Chapter, chapters
 from app.manual.equations import anchor, equations, functions
 from app.manual.fields import COLUMNS, SECTIONS, Models, table
 from app.manual.results import place_of
+from app.manual.search import Section, search
 from app.pages.query import Pairs, link, pairs_of
 from app.pages.templating import example_link, model_of, page_path, rendered
 from app.pages.typesetting import symbol
@@ -50,13 +51,27 @@ def contents_page(root: str) -> str:
     return rendered("manual_contents.html", root, listed=listed)
 
 
+def search_page(root: str, words: str) -> str:
+    """Return the page with the sections that have all words."""
+    found = [(chapters()[each.section.chapter], _anchor(each.section), each) for each in search(words)]
+    return rendered("manual_search.html", root, words=words, found=found)
+
+
+def _anchor(section: Section) -> str:
+    """Anchor of a section with its number sign; empty before the first heading and on pages with other headings."""
+    if section.place < 0 or section.chapter == FIELDS:
+        return ""
+    return f"#{list(headings(chapters()[section.chapter]))[section.place]}"
+
+
 @lru_cache(maxsize=32)
 def chapter_page(root: str, name: str) -> str:
     """Return the page of a chapter."""
     chapter, following = chapters()[name], chapters().get(dict(pairwise(NAMES)).get(name, ""))
     body = _html(chapter.text, root, name)
     lists: dict[str, Any] = {"headings": headings(chapter), "symbols": symbols_of(chapter)}
-    return rendered("manual.html", root, chapter=chapter, body=body, following=following, **lists)
+    listed = chapters().values()
+    return rendered("manual.html", root, chapter=chapter, body=body, following=following, listed=listed, **lists)
 
 
 @lru_cache(maxsize=4)

@@ -12,6 +12,7 @@ from app.evaluate import evaluate
 from app.examples import examples
 from app.manual import NAMES, chapters
 from app.manual.equations import anchor, equations, functions, module_of
+from app.manual.search import search, sections
 from app.pages.manual import chapter_of, method_of, shown_studies
 from tests.manual.citations import cited, declared, implementing
 from tests.manual.pictures import figures_of, studies_of
@@ -92,7 +93,7 @@ def test_figures_are_there(name: str) -> None:
 def test_every_model_shows_where_it_fails() -> None:
     """The section "Limits of validity" of every model with its own endpoint shows the picture of a study."""
     # The pictures in the chapters, the picture files and the studies that the service shows have the same names.
-    for name in set(NAMES) - {"heat-balance", "spectrum", "service", "fields"}:  # no endpoint of its own
+    for name in set(NAMES) - {"first-pair", "heat-balance", "spectrum", "service", "fields"}:  # no endpoint of its own
         assert f"studies/{name}.png)" in chapters()[name].section("Limits of validity")
     names = sorted(name for each in chapters().values() for name in studies_of(each))
     assert names == sorted(shown_studies()) == sorted(path.stem for path in (FOLDER / "studies").iterdir())
@@ -211,3 +212,27 @@ def test_the_table_of_effects_is_computed_from_the_starter() -> None:
 def cells_of(line: str) -> list[str]:
     """Return the cells of a row of a table in Markdown."""
     return [cell.strip() for cell in line.strip("|").split("|")]
+
+
+def test_a_search_finds_the_sections_with_all_words(client: httpx.Client) -> None:
+    page = client.get("/manual", params={"find": "STARVED inlet"}).text
+    (first, *_) = re.findall(r'<h2><a href="([^"]+)"', page)
+    assert first.startswith("/manual/coupling#")
+    assert f'id="{first.partition("#")[2]}"' in client.get("/manual/coupling").text
+    assert "No sections with" in client.get("/manual", params={"find": "phlogiston"}).text
+    assert client.get("/manual", params={"find": "a" * 201}).status_code == 422
+
+
+def test_every_section_of_the_manual_is_found_by_its_title() -> None:
+    for section in sections():
+        assert section in [found.section for found in search(section.title)]
+
+
+def test_a_search_is_quoted(client: httpx.Client) -> None:
+    assert "<b>" not in client.get("/manual", params={"find": "<b>"}).text
+
+
+@pytest.mark.ci
+def test_every_chapter_lists_all_chapters(pages: dict[str, str]) -> None:
+    for name in set(NAMES) - {"fields"}:
+        assert {f"/manual/{other}" for other in NAMES} <= set(re.findall(r'href="([^"]+)"', pages[f"/manual/{name}"]))

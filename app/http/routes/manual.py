@@ -1,6 +1,8 @@
 """The manual: its contents, its chapters, and the table of all fields."""
 
-from fastapi import APIRouter, HTTPException, Request, Response
+from typing import Annotated
+
+from fastapi import APIRouter, HTTPException, Query, Request, Response
 from fastapi.routing import APIRoute
 from pydantic import BaseModel
 
@@ -8,7 +10,7 @@ from app.calculations import BY_PATH
 from app.http.routes import calculations, rexs, service
 from app.http.routes.pages import html, root_of
 from app.manual import FIELDS, NAMES
-from app.pages.manual import chapter_page, contents_page, fields_page, functions_page
+from app.pages.manual import chapter_page, contents_page, fields_page, functions_page, search_page
 from app.schema.model import kinds
 
 OTHER_ANSWERS = tuple(
@@ -28,9 +30,9 @@ router = APIRouter(include_in_schema=False)
 
 
 @router.get("/manual")
-def contents(http: Request) -> Response:
-    """Show the table of contents of the manual."""
-    return html(contents_page(root_of(http)))
+def contents(http: Request, find: Annotated[str, Query(max_length=200)] = "") -> Response:
+    """Show the table of contents of the manual, or the sections that have all words of `find`."""
+    return html(search_page(root_of(http), find) if find.strip() else contents_page(root_of(http)))
 
 
 @router.get("/manual/{name}")
