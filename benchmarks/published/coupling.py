@@ -20,7 +20,7 @@ STATEMENTS: tuple[Statement, ...] = (
     Says(f"{PAHL}, Fig. 5", "inertia force, third over first harmonic at 0.3°").calculated(
         0.546, "-", lambda: pahl.third_over_first(0.3), 2e-2
     ),
-    Says(f"{PAHL}, Fig. 5", "the same at 0.1°: a sinusoid").below(1e-3, "-", lambda: pahl.third_over_first(0.1)),
+    Says(f"{PAHL}, Fig. 5", "inertia force at 0.1° is a sinusoid: third over first harmonic").below(1e-3, "-", lambda: pahl.third_over_first(0.1)),
     Says(f"{PAHL}, Fig. 7", "contact overlap 1, heavily crowned, at").calculated(
         0.168, "°", lambda: pahl.overlap_one(pahl.HEAVY), 1e-2
     ),
@@ -40,13 +40,13 @@ STATEMENTS: tuple[Statement, ...] = (
         1e-2,
         "its sliding velocity is a calibration of ours",
     ),
-    Says(f"{PAHL}, Fig. 11", "at a misalignment of").equals(
+    Says(f"{PAHL}, Fig. 11", "misalignment of least friction, heavily crowned").equals(
         0.4, "°", lambda: pahl.least_friction(pahl.HEAVY, 0.2, 0.8)[0], 2e-2
     ),
     Says(f"{PAHL}, Fig. 11", "least friction of the slightly crowned coupling").below(
         0.01, "-", lambda: pahl.least_friction(pahl.SLIGHT, 0.05, 0.2)[1]
     ),
-    Says(f"{PAHL}, Fig. 11", "at a misalignment of").equals(
+    Says(f"{PAHL}, Fig. 11", "misalignment of least friction, slightly crowned").equals(
         0.1, "°", lambda: pahl.least_friction(pahl.SLIGHT, 0.05, 0.2)[0], 0.1
     ),
     Says(f"{PAHL}, Fig. 14", "coaxial thrust at 3000 N m").calculated(
