@@ -105,21 +105,7 @@ class Derived:
 def derived(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: BulkInForce, heat: Heat | None = None) -> Derived:
     """Collect the values that the calculation used for inputs that were left open.
 
-    Parameters
-    ----------
-    inputs : DriveTrainInputs
-        The unit.
-    mesh : LoadDistribution
-        Load distribution of the mesh of the unit.
-    bulk : BulkInForce
-        How the bulk temperature came about.
-    heat : Heat, optional
-        Heat balance of the unit, if the inputs request a heat balance.
-
-    Returns
-    -------
-    Derived
-        The values used.
+    `heat`: heat balance of the unit, if the inputs request a heat balance.
     """
     ratio = inputs.mesh.distribution.gears.pinion.teeth / inputs.mesh.distribution.gears.wheel.teeth
     lengths, lubricant = mesh.derived, inputs.mesh.lubricant

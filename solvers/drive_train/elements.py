@@ -33,10 +33,7 @@ def warnings_of(unit: Unit, equilibrium: Equilibrium) -> list[tuple[Notice, ...]
 
 
 def _tilt_sizes(unit: Unit, equilibrium: Equilibrium) -> list[Vector2]:
-    """Return the sizes of the tilts [rad] of both hubs of every coupling.
-
-    A size below `LEAST_TILT` is raised to `LEAST_TILT`.
-    """
+    """Sizes of the tilts [rad] of both hubs of every coupling. A size below `LEAST_TILT` is raised to `LEAST_TILT`."""
     tilts = equilibrium.hubs.tilts.reshape(len(unit.couplings), 2, 2)
     return [(max(hypot(*a), LEAST_TILT), max(hypot(*b), LEAST_TILT)) for a, b in tilts]
 

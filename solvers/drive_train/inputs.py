@@ -39,24 +39,7 @@ class ShaftSection:
 
 
 def torsion_diameter(gears: GearPairInputs, teeth: GearTeeth) -> float:
-    """Compute the diameter that carries the torsion of a toothed section.
-
-    Parameters
-    ----------
-    gears : GearPairInputs
-        The gear pair.
-    teeth : GearTeeth
-        Teeth of the gear on the section.
-
-    Returns
-    -------
-    float
-        Diameter d - m_n h_fP* [m]. The dedendum h_fP* is the addendum of the tool that cuts the teeth.
-
-    Notes
-    -----
-    Eq. D16. This is the rule of a published program.
-    """
+    """Diameter that carries the torsion of a toothed section (Eq. D16). This is the rule of a published program."""
     reference = teeth.teeth * gears.normal_module / cos(gears.helix_angle)
     return reference - gears.normal_module * teeth.dedendum
 
@@ -161,21 +144,10 @@ Bearing = JournalBearing | LinearBearing | RigidBearing
 
 
 def gear_oil_viscosity(oil: OilSheet | Lubricant, feed_temperature: float, film_temperature: float | None) -> float:
-    """Compute the viscosity of the gears' oil in a plain bearing.
+    """Compute the viscosity of the gears' oil in a plain bearing [Pa s].
 
-    Parameters
-    ----------
-    oil : OilSheet or Lubricant
-        Oil of the gears.
-    feed_temperature : float
-        Temperature of the oil that enters the bearing [K].
-    film_temperature : float or None
-        Temperature of the film [K]; if None, the film is assumed to be 15 K warmer than the entering oil.
-
-    Returns
-    -------
-    float
-        Viscosity [Pa s].
+    `film_temperature`: temperature of the film [K]; if None, the film is assumed to be 15 K warmer than the entering
+    oil.
     """
     film = feed_temperature + FILM_ABOVE_OIL if film_temperature is None else film_temperature
     return lubricant_at(oil, film).viscosity_at(0.0, film)
@@ -481,18 +453,7 @@ class Heat:
         return pinion, wheel
 
     def responses(self, speed_ratio: float) -> tuple[float, float]:
-        """Return the wall responses of pinion and wheel.
-
-        Parameters
-        ----------
-        speed_ratio : float
-            Ratio of the numbers of teeth z1/z2 [-].
-
-        Returns
-        -------
-        tuple of float
-            Temperature rise of the metal divided by the temperature rise of the gas, for pinion and wheel [-].
-        """
+        """Return the wall responses of pinion and wheel [-]."""
         pinion = ASSUMED_RESPONSE if self.wall_response is None else self.wall_response
         return pinion, pinion * speed_ratio if self.wall_response_wheel is None else self.wall_response_wheel
 

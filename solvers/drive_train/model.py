@@ -27,25 +27,9 @@ from solvers.scuffing.thermal.temperatures import in_force, oil_notices
 def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTrainResult:
     """Compute misalignment, load, safety, thrust and losses of a unit in one state, hot or cold.
 
-    Parameters
-    ----------
-    inputs : DriveTrainInputs
-        The unit.
-    start : FloatArray of shape (stations,), optional
-        Start value of the iteration: the gap due to the shafts of a similar unit [m].
-
-    Returns
-    -------
-    DriveTrainResult
-        Results at the gap at which mesh, shafts, bearings and couplings are in equilibrium.
-
-    Raises
-    ------
-    InvalidInput
-        The errors of `check_inputs`, of the models of mesh, pumping and couplings, and of the heat balance.
-    NoSolution
-        If a part of the calculation has no solution. The code names this part: `drive_train`, `load_balance`,
-        `journal`, `heat_balance` or `thermal_runaway`.
+    Raises InvalidInput: the errors of `check_inputs`, of the models of mesh, pumping and couplings, and of the heat
+    balance. Raises NoSolution: if a part of the calculation has no solution. The code names this part: `drive_train`,
+    `load_balance`, `journal`, `heat_balance` or `thermal_runaway`.
     """
     warm = None
     if asks_for_balance(inputs):

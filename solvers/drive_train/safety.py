@@ -59,31 +59,9 @@ def contact_of(inputs: DriveTrainInputs) -> ScuffingInputs:
 
 
 def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap, thermal: ThermalLead) -> FlankHeat:
-    """Compute Blok's temperatures on the feature line and over the flank, and solve the thermal EHL.
+    """Compute Blok's temperatures on the feature line and over the flank, and solve the thermal EHL (Eq. D15).
 
     Thermal EHL is solved on the feature line and at the places of the flank that decide.
-
-    Parameters
-    ----------
-    inputs : DriveTrainInputs
-        The unit.
-    mesh : LoadDistribution
-        Load distribution of the mesh of the unit.
-    flash : FlashMap
-        Blok's flash temperature over the flank.
-    thermal : ThermalLead
-        The temperature rise of the metal along the face.
-
-    Returns
-    -------
-    FlankHeat
-        Contact temperatures [K], safety factors and the check against micropitting. Points near a base circle have no
-        temperature, because the flash temperature by Blok's formula has no upper limit there. Without an oil there is
-        no contact temperature.
-
-    Notes
-    -----
-    Eq. D15.
     """
     given, plane = inputs.mesh.distribution, mesh.path_of_contact.plane
 

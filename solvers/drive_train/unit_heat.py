@@ -73,24 +73,8 @@ def asks_for_balance(inputs: DriveTrainInputs) -> bool:
 def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> WarmUnit:
     """Solve the heat balance of a unit together with its bearings, couplings and flanks.
 
-    Parameters
-    ----------
-    inputs : DriveTrainInputs
-        The unit with a known oil and its cooling.
-    start : FloatArray, optional
-        Start value of the iteration: the gap due to the shafts of a similar unit [m].
-
-    Returns
-    -------
-    WarmUnit
-        The unit at the temperatures of its heat balance.
-
-    Raises
-    ------
-    InvalidInput
-        The errors of `prepare` and of the balance.
-    NoSolution
-        `heat_balance` if the temperatures do not settle within ten passes; the errors of `settle` and of the balance.
+    Raises InvalidInput: the errors of `prepare` and of the balance. Raises NoSolution: `heat_balance` if the
+    temperatures do not settle within ten passes; the errors of `settle` and of the balance.
     """
     warm, before, change = _first_guess(inputs), np.empty(0), np.inf
     for _ in range(MOST_PASSES):
@@ -163,27 +147,7 @@ def at_temperatures(
     films: list[float],
     casing: float | None,
 ) -> DriveTrainInputs:
-    """Return the unit with given temperatures of its parts.
-
-    Parameters
-    ----------
-    inputs : DriveTrainInputs
-        The unit with a known oil.
-    flanks, bodies : tuple of float
-        Temperatures of the flanks, and temperatures of the gear bodies; first the pinion, then the wheel [K].
-    films : list of float
-        Film temperatures of the two bearings of the pinion, then of the two bearings of the wheel [K]; NaN for bearings
-        without a film.
-    casing : float or None
-        Temperature of the casing [K].
-
-    Returns
-    -------
-    DriveTrainInputs
-        The unit at these temperatures. Bearings that run in the gears' oil have the viscosities at their film
-        temperatures. If no temperature rise of the unit's supports is given, the supports have the temperature rise of
-        the casing.
-    """
+    """Return the unit with given temperatures of its parts."""
     mesh = inputs.mesh
     return replace(
         inputs,

@@ -282,25 +282,9 @@ def _outcome_at(unit: DriveTrainInputs, network: Network, course: WarmUp, time: 
 
 
 def _least_backlash(unit: DriveTrainInputs, warm: WarmUnit, course: WarmUp) -> float | None:
-    """Return the least normal backlash during the warm-up.
+    """Return the least normal backlash during the warm-up (Eq. H22).
 
-    Parameters
-    ----------
-    unit : DriveTrainInputs
-        The unit.
-    warm : WarmUnit
-        The unit at the temperatures of its heat balance.
-    course : WarmUp
-        Temperatures over time [K].
-
-    Returns
-    -------
-    float or None
-        Least normal backlash [m]; None if the heat balance has no casing.
-
-    Notes
-    -----
-    Eq. H22.
+    Returns least normal backlash [m]; None if the heat balance has no casing.
     """
     if course.nodes[-1] != "casing":
         return None

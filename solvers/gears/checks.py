@@ -13,12 +13,8 @@ PRINTED = 1e-4
 def check_rack(inputs: GearPairInputs, teeth: GearTeeth, name: str) -> None:
     """Refuse a pointed rack.
 
-    A rack is pointed if the two flanks of a rack tooth meet before they reach the tip line.
-
-    Raises
-    ------
-    InvalidInput
-        `pointed_rack`.
+    A rack is pointed if the two flanks of a rack tooth meet before they reach the tip line. Raises InvalidInput:
+    `pointed_rack`.
     """
     if full_rack_tip_radius(teeth.dedendum, inputs.normal_pressure_angle) < 0.0:
         message = f"the dedendum of the {name} is so large that the rack has no tip; reduce the dedendum"
@@ -28,10 +24,7 @@ def check_rack(inputs: GearPairInputs, teeth: GearTeeth, name: str) -> None:
 def check_teeth(gear: Gear, name: str) -> None:
     """Refuse a gear without an involute or with pointed teeth.
 
-    Raises
-    ------
-    InvalidInput
-        `no_involute` or `pointed_tooth`.
+    Raises InvalidInput: `no_involute` or `pointed_tooth`.
     """
     if gear.root_radius <= 0.0 or gear.tip_radius <= gear.base_radius:
         message = (
@@ -47,10 +40,7 @@ def check_teeth(gear: Gear, name: str) -> None:
 def check_working_involute(value: float) -> None:
     """Refuse a value of the involute function for which there is no working pressure angle.
 
-    Raises
-    ------
-    InvalidInput
-        `flank_interference`.
+    Raises InvalidInput: `flank_interference`.
     """
     if value <= 0.0:
         raise InvalidInput(
@@ -64,13 +54,9 @@ def centre_distance_in_use(given: float | None, backlash_free: float) -> float:
     """Return the centre distance in use [m].
 
     This is the given centre distance, or the backlash-free centre distance if none is given. A given centre distance
-    that is too small only by the rounding of printed values is raised to the backlash-free centre distance.
-
-    Raises
-    ------
-    InvalidInput
-        `flank_interference` if the given centre distance is smaller than the backlash-free centre distance by more than
-        the rounding of printed values.
+    that is too small only by the rounding of printed values is raised to the backlash-free centre distance. Raises
+    InvalidInput: `flank_interference` if the given centre distance is smaller than the backlash-free centre distance by
+    more than the rounding of printed values.
     """
     if given is None:
         return backlash_free
@@ -86,10 +72,8 @@ def centre_distance_in_use(given: float | None, backlash_free: float) -> float:
 def check_tips(pinion: Gear, wheel: Gear, centre_distance: float) -> None:
     """Refuse a pair if the tip circles do not overlap, or if the tips of a gear touch the root of the mating gear.
 
-    Raises
-    ------
-    InvalidInput
-        `no_mesh` if the tip circles do not overlap; `no_tip_clearance` if a tip touches the root of the mating gear.
+    Raises InvalidInput: `no_mesh` if the tip circles do not overlap; `no_tip_clearance` if a tip touches the root of
+    the mating gear.
     """
     if pinion.tip_radius + wheel.tip_radius <= centre_distance:
         raise InvalidInput("no_mesh", "the tip circles do not overlap; reduce the centre distance", "centre_distance")
@@ -105,13 +89,7 @@ def check_tips(pinion: Gear, wheel: Gear, centre_distance: float) -> None:
 
 
 def check_usable_flank(gear: Gear, name: str) -> None:
-    """Refuse a gear whose root fillet reaches the tooth tip.
-
-    Raises
-    ------
-    InvalidInput
-        `form_diameter`.
-    """
+    """Refuse a gear whose root fillet reaches the tooth tip. Raises InvalidInput: `form_diameter`."""
     if gear.usable_roll_length >= gear.tip_roll_length:
         message = f"the fillet of the {name} reaches the tip, so that no involute is left; increase the profile shift"
         raise InvalidInput("form_diameter", message, f"{name}.profile_shift")
@@ -121,13 +99,9 @@ def check_path(tip_start: float, tip_end: float, start: float, end: float) -> No
     """Refuse a pair if the path of contact has no length.
 
     All arguments are roll lengths of the pinion [m]. If only the tips limit the path, the path extends from `tip_start`
-    to `tip_end`. If tips and root fillets limit the path, the path extends from `start` to `end`.
-
-    Raises
-    ------
-    InvalidInput
-        `no_contact` if the path between the tips has no length; `involute_interference` if only the path between tips
-        and fillets has no length.
+    to `tip_end`. If tips and root fillets limit the path, the path extends from `start` to `end`. Raises InvalidInput:
+    `no_contact` if the path between the tips has no length; `involute_interference` if only the path between tips and
+    fillets has no length.
     """
     if tip_end <= tip_start:
         raise InvalidInput(

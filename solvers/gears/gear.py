@@ -55,10 +55,7 @@ class Gear:
 
     @property
     def form_radius(self) -> float:
-        """Radius at which the usable involute starts [m].
-
-        If the gear is undercut, this radius is the base radius.
-        """
+        """Radius at which the usable involute starts [m]. If the gear is undercut, this radius is the base radius."""
         return hypot(self.base_radius, self.usable_roll_length)
 
     @property
@@ -107,28 +104,9 @@ def transverse_gear(inputs: GearPairInputs, teeth: GearTeeth) -> Gear:
 
 
 def virtual_gear(inputs: GearPairInputs, teeth: GearTeeth, base_helix_angle: float) -> Gear:
-    """Return the virtual spur gear that represents the real gear in the normal section.
+    """Return the virtual spur gear that represents the real gear in the normal section (Eq. L10).
 
     The rack that cuts the virtual gear is the normal section of the rack that cuts the real gear.
-
-    Parameters
-    ----------
-    inputs : GearPairInputs
-        The pair.
-    teeth : GearTeeth
-        Teeth of one gear of the pair.
-    base_helix_angle : float
-        Base helix angle beta_b [rad].
-
-    Returns
-    -------
-    Gear
-        Virtual gear with z/(cos^2 beta_b cos beta) teeth; the attribute `teeth` is the number of teeth of the
-        real gear.
-
-    Notes
-    -----
-    Eq. L10.
     """
     virtual_teeth = teeth.teeth / (cos(base_helix_angle) ** 2 * cos(inputs.helix_angle))
     return _cut(inputs, teeth, virtual_teeth, inputs.normal_module, inputs.normal_pressure_angle)

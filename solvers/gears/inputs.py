@@ -137,13 +137,9 @@ class GearPairInputs:
     def addendum_of(self, teeth: GearTeeth) -> float:
         """Return the addendum coefficient of one gear of the pair.
 
-        If a tip diameter d_a is given, the coefficient is h_aP* = (d_a - d)/(2 m_n) - x.
-
-        Raises
-        ------
-        InvalidInput
-            `missing_property` if neither addendum nor tip diameter is given; `tip_diameter` if the given tip diameter
-            leads to an addendum coefficient outside its range.
+        If a tip diameter d_a is given, the coefficient is h_aP* = (d_a - d)/(2 m_n) - x. Raises InvalidInput:
+        `missing_property` if neither addendum nor tip diameter is given; `tip_diameter` if the given tip diameter leads
+        to an addendum coefficient outside its range.
         """
         name = "pinion" if teeth is self.pinion else "wheel"
         if teeth.tip_diameter is None:

@@ -48,27 +48,10 @@ class PreparedMesh:
 
 
 def mesh_of(inputs: LoadDistributionInputs) -> PreparedMesh:
-    """Prepare the mesh for the load balance.
+    """Prepare the mesh for the load balance (Eq. 1).
 
-    Parameters
-    ----------
-    inputs : LoadDistributionInputs
-        The pair, its load and its modifications.
-
-    Returns
-    -------
-    PreparedMesh
-        Path of contact, lengths of the contact lines, mesh, roll positions and forces.
-
-    Raises
-    ------
-    InvalidInput
-        If the pair cannot mesh (see the errors of `gear_pair`, `path_of_contact` and `contact_lengths`), or if two
-        options exclude each other (see the errors of `pair_compliance`).
-
-    Notes
-    -----
-    Eq. 1.
+    Raises InvalidInput: if the pair cannot mesh (see the errors of `gear_pair`, `path_of_contact` and
+    `contact_lengths`), or if two options exclude each other (see the errors of `pair_compliance`).
     """
     path = meshing_path(inputs.gears)
     compliance = pair_compliance(path, inputs.pinion_material, inputs.wheel_material, inputs.model)

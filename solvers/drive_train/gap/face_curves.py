@@ -14,23 +14,7 @@ def face_mean(values: FloatArray) -> float:
 
 
 def face_slope(values: FloatArray) -> float:
-    """Compute the slope of a curve: the rise of the least-squares straight line over the whole face.
-
-    Parameters
-    ----------
-    values : FloatArray of shape (stations,)
-        The curve at the stations.
-
-    Returns
-    -------
-    float
-        Rise from y = 0 to y = b, in the unit of the values. The rise is 12 int (eta - 1/2) v d eta, where v are the
-        values and eta is y/b.
-
-    Notes
-    -----
-    Eq. D13.
-    """
+    """Compute the slope of a curve: the rise of the least-squares straight line over the whole face (Eq. D13)."""
     eta, value, weight = _gauss(values)
     return float(12 * np.sum(weight * (eta - 0.5) * value))
 
@@ -38,20 +22,8 @@ def face_slope(values: FloatArray) -> float:
 def face_crown(values: FloatArray) -> float:
     """Compute the crown of a curve: the height C of the parabola C (2 eta - 1)^2 with the best least-squares fit.
 
-    Parameters
-    ----------
-    values : FloatArray of shape (stations,)
-        The curve at the stations.
-
-    Returns
-    -------
-    float
-        Height C, in the unit of the values v. The height is (15/2) int P2(2 eta - 1) v d eta with eta = y/b. Here P2(t)
-        is (3 t^2 - 1) / 2.
-
-    Notes
-    -----
-    Eq. D13.
+    Eq. D13. Returns height C, in the unit of the values v. The height is (15/2) int P2(2 eta - 1) v d eta with eta =
+    y/b. Here P2(t) is (3 t^2 - 1) / 2.
     """
     eta, value, weight = _gauss(values)
     return float(7.5 * np.sum(weight * (1.5 * (2 * eta - 1) ** 2 - 0.5) * value))

@@ -68,34 +68,13 @@ def free_hubs(unit: Unit, force: FloatArray) -> HubLoads:
 
 
 def respond(unit: Unit, force: FloatArray, start: HubLoads) -> Yielding:
-    """Compute the motion of the ports under a force over the face, with the hubs in balance.
+    """Compute the motion of the ports under a force over the face, with the hubs in balance (Eq. D12).
 
-    Parameters
-    ----------
-    unit : Unit
-        Shafts, bearings and couplings.
-    force : FloatArray of shape (stations,)
-        Transverse force at the stations [N].
-    start : HubLoads
-        Tilts and loads of the hubs from which the iteration starts.
-
-    Returns
-    -------
-    Yielding
-        The motion of the ports [m, rad] and the derivative of this motion.
-
-    Raises
-    ------
-    InvalidInput
-        If a hub tilts too far for the coupling model while the shafts carry no coupling loads.
-    NoSolution
-        `drive_train` with the residual of the tilts [rad] if no iteration converges.
-
-    Notes
-    -----
-    Eq. D12. Up to three iterations are tried. The first iteration starts from `start`. The second iteration starts
-    from the tilts of the hubs without coupling loads. Before the third iteration, the coupling loads grow step by step
-    from zero. The third iteration starts from the tilts at the last of these steps.
+    Up to three iterations are tried. The first iteration starts from `start`. The second iteration starts from the
+    tilts of the hubs without coupling loads. Before the third iteration, the coupling loads grow step by step from
+    zero. The third iteration starts from the tilts at the last of these steps. Raises InvalidInput: if a hub tilts too
+    far for the coupling model while the shafts carry no coupling loads. Raises NoSolution: `drive_train` with the
+    residual of the tilts [rad] if no iteration converges.
     """
     yielding, residual = _solve(unit, force, start)
     if yielding is None:

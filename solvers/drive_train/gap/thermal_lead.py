@@ -88,27 +88,10 @@ def _profile(spaces: SpacesResult | None) -> tuple[FloatArray, FloatArray]:
 def thermal_lead(inputs: DriveTrainInputs, path: PathOfContact, stations: FloatArray) -> ThermalLead:
     """Compute the gap over the face, the profile slope and the base pitch deviation that heat causes.
 
-    Parameters
-    ----------
-    inputs : DriveTrainInputs
-        The unit.
-    path : PathOfContact
-        Path of contact of the gear pair of the unit.
-    stations : FloatArray of shape (stations,)
-        Positions y on the face, measured from the end that meshes first [m].
-
-    Returns
-    -------
-    ThermalLead
-        Gap, profile slope and base pitch deviation [m], and temperature rises of the metal due to pumping [K].
-
-    Notes
-    -----
-    Eq. D10: lead = (mean of e over the face) - e, where
-    e = eps_1 s_C + tan beta_b int eps_1 + eps_2 (N - s_C) - tan beta_b int eps_2;
-    profile slope = -(mean eps_1 - mean eps_2) g_alpha. Here s_C is the distance from the pinion's base tangent point to
-    the pitch point, and g_alpha is the length of the path of contact. The docstring of this module explains the other
-    symbols.
+    Eq. D10: lead = (mean of e over the face) - e, where e = eps_1 s_C + tan beta_b int eps_1 + eps_2 (N - s_C) - tan
+    beta_b int eps_2; profile slope = -(mean eps_1 - mean eps_2) g_alpha. Here s_C is the distance from the pinion's
+    base tangent point to the pitch point, and g_alpha is the length of the path of contact. The docstring of this
+    module explains the other symbols.
     """
     heat, ratio = inputs.heat, path.pair.pinion.teeth / path.pair.wheel.teeth
     rises = [np.zeros(stations.size), np.zeros(stations.size)]

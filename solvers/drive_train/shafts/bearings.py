@@ -53,34 +53,10 @@ def film_force(bearing: JournalBearing, speed: float, law: FilmLaw) -> float:
 
 
 def bearing_state(bearing: Bearing, load: FloatArray, speed: float, rotation: float, film: BearingFilm) -> BearingState:
-    """Compute displacement and flexibility of a bearing under a load.
+    """Compute displacement and flexibility of a bearing under a load (Eq. D5).
 
-    Parameters
-    ----------
-    bearing : JournalBearing, LinearBearing or RigidBearing
-        The bearing.
-    load : FloatArray of shape (2,)
-        Load (X, Y) on the bearing [N].
-    speed : float
-        Angular speed of the shaft [rad/s].
-    rotation : float
-        Sense of rotation of the shaft, +1 if counter-clockwise about Z, else -1.
-    film : BearingFilm
-        Film of the plain bearings.
-
-    Returns
-    -------
-    BearingState
-        The loaded bearing.
-
-    Raises
-    ------
-    NoSolution
-        `journal` if the film would be thinner than a thousandth of the clearance.
-
-    Notes
-    -----
-    Eq. D5.
+    `rotation`: sense of rotation of the shaft, +1 if counter-clockwise about Z, else -1. Raises NoSolution: `journal`
+    if the film would be thinner than a thousandth of the clearance.
     """
     if isinstance(bearing, JournalBearing):
         return _journal(bearing, load, speed, rotation, law_of(bearing, film))

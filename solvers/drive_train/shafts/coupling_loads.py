@@ -124,20 +124,6 @@ def coupling_port(
 def sliding_tilt(port: CouplingPort, friction: float) -> float:
     """Compute the tilt of a hub at which the teeth begin to slide; below this tilt the teeth only yield elastically.
 
-    Parameters
-    ----------
-    port : CouplingPort
-        The coupling and its shaft.
-    friction : float
-        Coefficient of friction mu [-].
-
-    Returns
-    -------
-    float
-        Tilt delta_0 = kt mu T / (z r_o^2 cos alpha c_a) [rad].
-
-    Notes
-    -----
     Eq. D8. kt is the result of `axial_share`, T is the torque, z is the number of teeth, r_o is the pitch radius, alpha
     is the pressure angle, and c_a is the axial stiffness of a tooth.
     """
@@ -148,42 +134,18 @@ def sliding_tilt(port: CouplingPort, friction: float) -> float:
 
 
 def axial_share(port: CouplingPort) -> float:
-    """Compute the share of a coupling's friction that can resist tilting while the axial thrust acts.
+    """Compute the share of a coupling's friction that can resist tilting while the axial thrust acts [-].
 
-    Parameters
-    ----------
-    port : CouplingPort
-        The coupling and its shaft.
-
-    Returns
-    -------
-    float
-        Share kt = cos(pi tau / 2) [-].
-
-    Notes
-    -----
     Eq. D7. tau is the axial thrust of the coupling divided by the friction limit.
     """
     return cos(pi * min(abs(port.inputs.thrust_fraction), 1.0) / 2)
 
 
 def elastic_plastic(ratio: float) -> tuple[float, float]:
-    """Compute loss moment and elastic moment of a hub whose teeth yield before they slide.
+    """Compute loss moment and elastic moment of a hub whose teeth yield before they slide [-] (Eq. D9).
 
-    Parameters
-    ----------
-    ratio : float
-        Ratio beta of the tilt to the tilt at which sliding begins [-].
-
-    Returns
-    -------
-    tuple of float
-        Loss moment and elastic moment, both divided by the friction moment of full sliding [-].
-
-    Notes
-    -----
-    Eq. D9. The teeth act like springs that slide above a limit force. Such springs pass through a hysteresis loop in
-    one revolution. The moments are the first harmonic of this loop.
+    The teeth act like springs that slide above a limit force. Such springs pass through a hysteresis loop in one
+    revolution. The moments are the first harmonic of this loop.
     """
     if ratio <= 1.0:
         return 0.0, pi * ratio / 4
@@ -201,30 +163,11 @@ def regularised(ratio: float) -> tuple[float, float]:
 
 
 def hub_moments(port: CouplingPort, tilt: float) -> HubMoments:
-    """Compute the moments of one hub at a tilt.
+    """Compute the moments of one hub at a tilt [N] (Eq. D7).
 
-    Parameters
-    ----------
-    port : CouplingPort
-        The coupling and its shaft.
-    tilt : float
-        Tilt of the hub, greater than 0 [rad].
-
-    Returns
-    -------
-    HubMoments
-        The moments [N m] and the limit of thrust [N].
-
-    Raises
-    ------
-    InvalidInput
-        The errors of `coupling.solve`, with field names that begin with the path of the coupling in the unit.
-    NoSolution
-        The errors of `coupling.solve`.
-
-    Notes
-    -----
-    Eq. D7. To save time, only the needed parts of the coupling's model are evaluated.
+    To save time, only the needed parts of the coupling's model are evaluated. Raises InvalidInput: the errors of
+    `coupling.solve`, with field names that begin with the path of the coupling in the unit. Raises NoSolution: the
+    errors of `coupling.solve`.
     """
     given = _operating_point(port, tilt)
     geometry = tooth_geometry(given.coupling)
@@ -276,23 +219,8 @@ def _prefixed(port: CouplingPort) -> Iterator[None]:
 def coupling_loads(port: CouplingPort, tilts: FloatArray) -> tuple[FloatArray, FloatArray]:
     """Compute the loads of a coupling on the unit's shaft, and the derivative of these loads with respect to the tilts.
 
-    Parameters
-    ----------
-    port : CouplingPort
-        The coupling and its shaft.
-    tilts : FloatArray of shape (4,)
-        Tilts of hub A and hub B in both planes [rad].
-
-    Returns
-    -------
-    loads : FloatArray of shape (5,)
-        F_X, F_Y [N], m_X, m_Y [N m], F_Z [N].
-    derivative : FloatArray of shape (5, 4)
-        Derivative of the loads with respect to the tilts [N/rad, N m/rad].
-
-    Notes
-    -----
-    Eq. D6.
+    Eq. D6. Returns `loads`: F_X, F_Y [N], m_X, m_Y [N m], F_Z [N]; `derivative`: derivative of the loads with respect
+    to the tilts [N/rad, N m/rad].
     """
     loads, derivative = np.zeros(LOADS), np.zeros((LOADS, TILTS))
     least = np.inf

@@ -42,50 +42,14 @@ class ShaftModel:
 
 
 def shear_coefficient(poisson_ratio: float, bore_ratio: float) -> float:
-    """Compute the shear coefficient of a hollow circular cross-section.
-
-    Parameters
-    ----------
-    poisson_ratio : float
-        Poisson's ratio [-].
-    bore_ratio : float
-        Ratio of inner to outer diameter, m = d_i/d_o [-].
-
-    Returns
-    -------
-    float
-        Shear coefficient kappa [-].
-
-    Notes
-    -----
-    Eq. D2; Cowper (1966).
-    """
+    """Compute the shear coefficient of a hollow circular cross-section [-]. Eq. D2; Cowper (1966)."""
     square = bore_ratio**2
     plain = (7 + 6 * poisson_ratio) * (1 + square) ** 2
     return 6 * (1 + poisson_ratio) * (1 + square) ** 2 / (plain + (20 + 12 * poisson_ratio) * square)
 
 
 def shaft_model(shaft: Shaft, torque_position: float, positions: FloatArray) -> ShaftModel:
-    """Compute the flexibility of a shaft at its nodes.
-
-    Parameters
-    ----------
-    shaft : Shaft
-        The shaft.
-    torque_position : float
-        Position at which torque enters or leaves [m].
-    positions : FloatArray
-        Positions of further nodes [m]. Ends of sections, bearings and `torque_position` are nodes anyway.
-
-    Returns
-    -------
-    ShaftModel
-        The nodes and the matrices at the nodes.
-
-    Notes
-    -----
-    Eq. D2.
-    """
+    """Compute the flexibility of a shaft at its nodes (Eq. D2)."""
     ends = shaft.start + np.cumsum([0.0, *(section.length for section in shaft.sections)])
     bearings = [bearing.position for bearing in shaft.bearings]
     places = np.sort(np.concatenate([ends, bearings, [torque_position], positions]))
