@@ -324,6 +324,11 @@ def iso_vg(
     ------
     InvalidInput
         `viscosity_index` if no oil of this grade has this index.
+
+    Examples
+    --------
+    >>> round(iso_vg(46).viscosity(313.15), 4)
+    0.0398
     """
     thick = grade * SQUARE_MILLIMETRE
     thin = MINERAL_VISCOSITY_100.get(grade) if kind == "mineral" and viscosity_index is None else None

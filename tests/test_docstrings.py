@@ -1,5 +1,6 @@
 """The docstrings of public objects pass the checks of numpydoc's validator that pyproject.toml selects."""
 
+import doctest
 import inspect
 import tomllib
 from dataclasses import is_dataclass
@@ -42,6 +43,13 @@ def test_docstrings_have_the_form() -> None:
         is_enumeration = isinstance(implementing(name), EnumType)  # has the parameters of `str`
         checks = CHECKS - {"PR01"} if is_enumeration else CHECKS
         assert [(code, text) for code, text in validate(name)["errors"] if code in checks] == [], name
+
+
+@pytest.mark.parametrize("name", [name for name in PUBLIC if ">>>" in (implementing(name).__doc__ or "")])
+def test_examples_run(name: str) -> None:
+    names = dict(vars(import_module(implementing(name).__module__)))
+    (example,) = doctest.DocTestFinder(recurse=False).find(implementing(name), name, globs=names)
+    assert doctest.DocTestRunner().run(example).failed == 0
 
 
 def fields_in_help(kind: type) -> dict[str, str]:

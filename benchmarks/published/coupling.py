@@ -20,7 +20,9 @@ STATEMENTS: tuple[Statement, ...] = (
     Says(f"{PAHL}, Fig. 5", "inertia force, third over first harmonic at 0.3°").calculated(
         0.546, "-", lambda: pahl.third_over_first(0.3), 2e-2
     ),
-    Says(f"{PAHL}, Fig. 5", "inertia force at 0.1° is a sinusoid: third over first harmonic").below(1e-3, "-", lambda: pahl.third_over_first(0.1)),
+    Says(f"{PAHL}, Fig. 5", "inertia force at 0.1° is a sinusoid: third over first harmonic").below(
+        1e-3, "-", lambda: pahl.third_over_first(0.1)
+    ),
     Says(f"{PAHL}, Fig. 7", "contact overlap 1, heavily crowned, at").calculated(
         0.168, "°", lambda: pahl.overlap_one(pahl.HEAVY), 1e-2
     ),

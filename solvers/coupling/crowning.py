@@ -233,6 +233,17 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
     at the largest misalignment, and the contact stays within the limits of Hertz's theory. If the range is a single
     value, the limit of the sliding velocity is a fourth constraint. If the range is wider, a sliding velocity above
     this limit only causes a warning. The warnings include the warnings that `solve` gives at both ends of the range.
+
+    Examples
+    --------
+    >>> from math import radians
+    >>> from solvers import coupling
+    >>> design = coupling.Coupling(teeth=52, module=3e-3)
+    >>> running = coupling.Operation(3000.0, 200.0, misalignment=0.0)
+    >>> inputs = coupling.CouplingInputs(design, running)
+    >>> found = coupling.recommend(coupling.RecommendationInputs(inputs, radians(0.1), radians(0.3)))
+    >>> found.feasible
+    True
     """
     _check(inputs)
     state = cache(partial(crowning_state, inputs))

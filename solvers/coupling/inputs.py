@@ -213,6 +213,11 @@ def tilt_of_offset(parallel_offset: float, hub_distance: float) -> float:
     -------
     float
         Tilt of the hub against the sleeve at each mesh [rad].
+
+    Examples
+    --------
+    >>> round(tilt_of_offset(0.3e-3, 0.3), 6)
+    0.001
     """
     return atan(parallel_offset / hub_distance)
 

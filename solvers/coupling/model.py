@@ -30,6 +30,16 @@ def solve(inputs: CouplingInputs) -> CouplingResult:
         `out_of_range`, `pitch_errors_length`, `mixed_law`, `mixed_curve`, `hertz_pressure` or `contact_width`.
     NoSolution
         `sleeve_balance` or `sleeve_equilibrium`, with residuals.
+
+    Examples
+    --------
+    >>> from math import radians
+    >>> from solvers import coupling
+    >>> design = coupling.Coupling(teeth=52, module=3e-3)
+    >>> tilted = coupling.Operation(3000.0, 200.0, misalignment=radians(0.05))
+    >>> result = coupling.solve(coupling.CouplingInputs(design, tilted, friction=coupling.Friction(0.2)))
+    >>> round(result.axial_thrust.coaxial_limit)
+    8186
     """
     check_inputs(inputs)
     geometry = tooth_geometry(inputs.coupling)

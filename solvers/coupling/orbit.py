@@ -81,6 +81,16 @@ def solve_orbit(inputs: CouplingInputs) -> OrbitResult:
     settled path. One path has twice as many rotor angles as the settled path, the other path has three times as many.
     One further path would not be enough, because the errors at two resolutions may happen to agree if teeth alternately
     carry load and lift off.
+
+    Examples
+    --------
+    >>> from math import radians
+    >>> from solvers import coupling
+    >>> design = coupling.Coupling(teeth=52, module=3e-3)
+    >>> tilted = coupling.Operation(3000.0, 200.0, misalignment=radians(0.05))
+    >>> orbit = coupling.solve_orbit(coupling.CouplingInputs(design, tilted))
+    >>> orbit.max_displacement < 1e-6
+    True
     """
     check_inputs(inputs)
     if inputs.operation.torque == 0.0:

@@ -56,6 +56,11 @@ def cylinders_capacity(
     -------
     float
         Heat capacity [J/K].
+
+    Examples
+    --------
+    >>> round(cylinders_capacity(((0.2, 0.25, 0.0),)))
+    36222
     """
     volume = sum(pi / 4 * length * (outer**2 - inner**2) for length, outer, inner in sections)
     return volume * density * specific_heat
@@ -90,5 +95,10 @@ def loaded_teeth_capacity(
     -------
     float
         Heat capacity z b H pi m_n/4 rho c [J/K].
+
+    Examples
+    --------
+    >>> round(loaded_teeth_capacity(39, 0.2, 6e-3, 13.5e-3))
+    1831
     """
     return teeth * face_width * height * pi * module / 4 * density * specific_heat

@@ -27,6 +27,11 @@ def rod_conductance(sections: tuple[tuple[float, float, float], ...], conductivi
     -----
     Eq. H14: 1/sum(L/(k A)), with the length L and the cross-section A of each section, and the conductivity k. The
     formula is exact for a rod.
+
+    Examples
+    --------
+    >>> round(rod_conductance(((0.1, 0.1, 0.0),), 45.0), 2)
+    3.53
     """
     lengths = sum(length / (outer**2 - inner**2) for length, outer, inner in sections)
     return conductivity * pi / 4 / lengths

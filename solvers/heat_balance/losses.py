@@ -76,6 +76,13 @@ def share_to_pinion(
     heat, and u_1 and u_2 are the surface speeds of pinion and wheel. If the effusivities differ, sqrt(u_2) is
     multiplied by the effusivity ratio. The model treats both surfaces as half spaces under a moving heat source, and
     assumes that both surfaces have the same temperature in the contact.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> ones = np.ones(3)
+    >>> round(share_to_pinion(ones, 4.0 * ones, ones, np.arange(3.0)), 3)
+    0.667
     """
     total = float(np.trapezoid(heat, position))
     if total == 0.0:

@@ -44,6 +44,13 @@ def cooling_oil(oil: OilSheet | Lubricant, inlet: float) -> CoolingOil:
     CoolingOil
         The cooling oil. Its density is the density at the supply temperature. Its viscosity is a function of the
         temperature, at ambient pressure.
+
+    Examples
+    --------
+    >>> from solvers.oils import iso_vg
+    >>> oil = cooling_oil(iso_vg(46), 328.15)
+    >>> round(oil.density)
+    857
     """
     supplied = lubricant_at(oil, inlet)
     return CoolingOil(

@@ -66,6 +66,16 @@ def solve(inputs: PumpingInputs) -> PumpingResult:
     Notes
     -----
     Eq. P9.
+
+    Examples
+    --------
+    >>> from solvers import pumping
+    >>> from solvers.gears.inputs import GearPairInputs, GearTeeth
+    >>> gears = GearPairInputs(GearTeeth(39), GearTeeth(130), 6e-3, 0.2, rack_tip_radius=0.25)
+    >>> slow = pumping.PumpingModel(flow=pumping.Flow.INCOMPRESSIBLE)
+    >>> result = pumping.solve(pumping.PumpingInputs(pumping.PumpingSetup(gears, 0.3e-3, model=slow), 100.0))
+    >>> round(result.total.pumping_power, 1)
+    9.9
     """
     return _solve(inputs, refine=True)
 

@@ -89,6 +89,18 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     Notes
     -----
     Eq. 16.
+
+    Examples
+    --------
+    >>> from solvers import scuffing
+    >>> teeth = scuffing.GearTeeth(25), scuffing.GearTeeth(76)
+    >>> gears = scuffing.GearPairInputs(*teeth, 4e-3, 60e-3, rack_tip_radius=0.38)
+    >>> load = scuffing.LoadDistributionInputs(gears, scuffing.Load(900.0, 157.0))
+    >>> warm = scuffing.Temperatures(oil=343.15, scuffing=573.15)
+    >>> oil = scuffing.iso_vg(220)
+    >>> inputs = scuffing.ScuffingInputs(load, oil=oil, temperatures=warm, lubrication="closed_form")
+    >>> scuffing.solve_scuffing(inputs).safety.verdict
+    'low'
     """
     if inputs.temperatures.bulk_method == "estimated" and inputs.temperatures.bulk is not None:
         message = (

@@ -34,6 +34,12 @@ def check(inputs: LineContactInputs) -> None:
     InvalidInput
         With one of the codes `no_load`, `no_entrainment`, `stationary_surface`, `viscosity_range`,
         `temperature_range`, `pressure_range`, `load_range`, `film_range` and `resolution`.
+
+    Examples
+    --------
+    >>> from solvers.contact import ehl
+    >>> from solvers.lubricants import Lubricant
+    >>> check(ehl.LineContactInputs(ehl.Contact(273e3, 6.5e-3, 1.018, 3.708), lubricant=Lubricant()))
     """
     _check_motion(inputs)
     _check_resolution(inputs)
@@ -54,6 +60,14 @@ def lightest(inputs: LineContactInputs) -> LineContactInputs:
     LineContactInputs
         If the expected film is thin enough for `check`, the contact itself. Otherwise the contact with the smallest
         line load for which the expected film is thin enough.
+
+    Examples
+    --------
+    >>> from solvers.contact import ehl
+    >>> from solvers.lubricants import Lubricant
+    >>> light = ehl.LineContactInputs(ehl.Contact(1.0, 6.5e-3, 1.018, 3.708), lubricant=Lubricant())
+    >>> lightest(light).contact.line_load > 1.0
+    True
     """
 
     def excess(logarithm: float) -> float:

@@ -52,6 +52,15 @@ def solve(inputs: LineContactInputs) -> LineContactResult:
     ------
     InvalidInput
         If `checks.check` refuses the contact; the codes are those of `checks.check`.
+
+    Examples
+    --------
+    >>> from solvers.contact import ehl
+    >>> from solvers.lubricants import Lubricant
+    >>> contact = ehl.Contact(273e3, 6.5e-3, 1.018, 3.708)
+    >>> result = ehl.solve(ehl.LineContactInputs(contact, lubricant=Lubricant()))
+    >>> round(result.friction.coefficient, 3)
+    0.027
     """
     check(inputs)
     constants = problem(inputs, groups(inputs))

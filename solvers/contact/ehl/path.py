@@ -81,6 +81,15 @@ def solve_path(contacts: Sequence[LineContactInputs]) -> list[LineContactResult]
     separation. If this iteration does not converge within a few steps, the contact is solved as if it were alone. If
     that fails as well, the contact has no solution, and the next contacts are still solved. After many consecutive
     failures each contact is given fewer steps, until a contact converges again.
+
+    Examples
+    --------
+    >>> from solvers.contact import ehl
+    >>> from solvers.lubricants import Lubricant
+    >>> loads = (250e3, 260e3)
+    >>> path = [ehl.LineContactInputs(ehl.Contact(w, 6.5e-3, 1.018, 3.708), lubricant=Lubricant()) for w in loads]
+    >>> [result.status for result in ehl.solve_path(path)]
+    ['ok', 'ok']
     """
     for inputs in contacts:
         check(inputs)

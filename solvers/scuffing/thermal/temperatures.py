@@ -104,6 +104,15 @@ def sized_flow(inputs: ScuffingInputs) -> float | None:
     -------
     float or None
         Oil flow [m^3/s]; None if a flow is given or no heat balance runs.
+
+    Examples
+    --------
+    >>> from solvers import scuffing
+    >>> teeth = scuffing.GearTeeth(25), scuffing.GearTeeth(76)
+    >>> gears = scuffing.GearPairInputs(*teeth, 4e-3, 60e-3, rack_tip_radius=0.38)
+    >>> load = scuffing.LoadDistributionInputs(gears, scuffing.Load(900.0, 157.0))
+    >>> scuffing.sized_flow(scuffing.ScuffingInputs(load)) is None
+    True
     """
     has_oil = inputs.known_oil is not None
     method = method_asked(inputs.temperatures, inputs.cooling, has_oil=has_oil)
