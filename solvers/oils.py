@@ -254,9 +254,9 @@ class OilSheet:
         return float(thinning + expansion)
 
     def pressure_coefficient(self, temperature: float) -> float:
-        """Pressure-viscosity coefficient of the data sheet (at 38 C, converted by Eq.
+        """Pressure-viscosity coefficient of the data sheet, else Gold's alpha = s nu^t [1/Pa] (Eq. R4).
 
-        M3), else Gold's [1/Pa] (Eq. R4).
+        One at 38 C is converted by Eq. M3. `KindOfOil` has s and t, with nu in mm^2/s.
         """
         if self.pressure_viscosity is not None:
             return self.pressure_viscosity

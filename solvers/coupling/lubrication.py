@@ -102,9 +102,9 @@ def _largest_forces(inputs: CouplingInputs, mesh: MeshMotion, teeth: ToothPositi
 
 
 def hertz_contact(coupling: Coupling, geometry: Geometry, normal_force: float) -> tuple[float, float]:
-    """Half width a_HZ [m] and pressure [Pa] of a plane and a cylinder of radius R_e as long as the tooth height (Eq.
+    """Half width a_HZ [m] and pressure [Pa] of a plane and a cylinder of radius R_e (Eq. C12).
 
-    C12).
+    The cylinder is as long as the tooth height.
     """
     steel = Solid(youngs_modulus=coupling.youngs_modulus, poisson_ratio=coupling.poisson_ratio)
     modulus = reduced_modulus(steel, steel)

@@ -59,9 +59,9 @@ class LeadCorrection:
 
 
 def lead_correction(pair: GearPair, position: FloatArray, temperature_rise: FloatArray) -> LeadCorrection:
-    """Lead correction for teeth that warm as much as the gas; else times their share, known by measurement [m] (Eq.
+    """Lead correction for teeth that warm as much as the gas [m] (Eq. P12).
 
-    P12).
+    If they warm by a share, times that share, which is known by measurement alone.
     """
     strain = EXPANSION * temperature_rise
     radial = strain * pair.pinion_working_radius * sin(pair.working_pressure_angle)

@@ -23,9 +23,10 @@ class Pulsation:
 
 
 def pulsation(meshing_frequency: float, flows: list[tuple[SpaceFlow, float, float]]) -> Pulsation:
-    """Superpose the flows of successive spaces; amplitude of order k is 2 f_m |int m_dot exp(-2 pi i k f_m t) dt| (Eq.
+    """Superpose the flows of successive spaces; harmonics of the mass flow [kg/s] (Eq. P13).
 
-    P13).
+    The amplitude of order k is 2 f_m |int m_dot exp(-2 pi i k f_m t) dt|; the exponential is a power of that of order
+    1.
     """
     front = np.zeros(HARMONICS, dtype=complex)
     rear = np.zeros(HARMONICS, dtype=complex)

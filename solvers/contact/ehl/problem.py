@@ -74,17 +74,17 @@ def entry_temperature(inputs: LineContactInputs) -> float:
 
 
 def moes_central_film(m: float, l: float) -> float:
-    """Central film (h/R) U^-1/2 of an isothermal, incompressible line contact (Nijenbanning and others) [-] (Eq.
+    """Central film (h/R) U^-1/2 of an isothermal, incompressible line contact [-] (Eq. E3).
 
-    E3).
+    Regression of Nijenbanning and others.
     """
     return _moes_film(l, (3.0 / m, 2.621 * m**-0.2, 1.287 * l ** (2 / 3), 1.311 * m**-0.125 * l**0.75))
 
 
 def moes_minimum_film(m: float, l: float) -> float:
-    """Minimum film (h/R) U^-1/2 of an isothermal, incompressible line contact (Nijenbanning and others) [-] (Eq.
+    """Minimum film (h/R) U^-1/2 of an isothermal, incompressible line contact [-] (Eq. E3).
 
-    E3).
+    Regression of Nijenbanning and others.
     """
     return _moes_film(l, (2.45 / m, 2.05 * m**-0.2, 1.05 * l ** (2 / 3), 0.96 * m**-0.125 * l**0.75))
 

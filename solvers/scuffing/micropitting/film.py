@@ -84,10 +84,9 @@ def _effusivity(solid: Solid) -> float:
 
 
 def film_thickness(conditions: Conditions, contacts: Contacts, flash: FloatArray) -> FloatArray:
-    """Compute the film of contacts [m].
+    """Film of contacts at the bulk temperature, thinned by the flash temperature [m] (Eqs. M5, M6).
 
-    The film is computed at the bulk temperature and then reduced, because the flash temperature thins the oil. Eqs. M5
-    and M6 of the chapter on micropitting; formulas 4 and 27 of ISO/TR 15144-1.
+    Formulas 4 and 27 of ISO/TR 15144-1.
     """
     oil, bulk, modulus = conditions.oil, np.asarray(conditions.bulk), conditions.modulus
     thickness, coefficient = viscosity(oil, bulk), pressure_viscosity(oil, bulk)

@@ -13,10 +13,9 @@ MM = 1e-3  # m
 
 
 def helical_load_factor(total_contact_ratio: float) -> float:
-    """Compute the helical load factor [-].
+    """Helical load factor on the line load of the mean coefficient of friction [-] (Eq. M8).
 
-    In the formula of the mean coefficient of friction, the line load of helical gears is multiplied by this factor. Eq.
-    M8 of the chapter on micropitting; formulas 88 to 90 of ISO/TR 15144-1.
+    Formulas 88 to 90 of ISO/TR 15144-1.
     """
     if total_contact_ratio <= 2.0:
         return 1.0
