@@ -173,10 +173,10 @@ def test_a_broken_connection_is_an_error_of_the_service() -> None:
         with pytest.raises(ServiceError, match="refused"):
             ask({})
 
-    async def ask_async() -> list[BaseException | object]:
+    async def ask_async() -> list[object]:
         async with AsyncTribodrive(transport=httpx.MockTransport(breaks)) as client:
             asked = (client.coupling({}), client.example(""), client.sweep({}).frame())
-            return await asyncio.gather(*asked, return_exceptions=True)
+            return list(await asyncio.gather(*asked, return_exceptions=True))
 
     errors = asyncio.run(ask_async())
     assert [type(error) for error in errors] == [ServiceError] * 3
@@ -214,3 +214,11 @@ def test_missing_and_doubled_points_of_a_sweep_are_noticed(indices: tuple[int, .
     lines = "".join(f"{json.dumps(line)}\n" for line in [header, *points, {"type": "end"}])
     with pytest.raises(StudyError, match=words):
         list(behind(httpx.Response(200, text=lines)).sweep({}))
+
+
+def test_a_study_that_is_read_again_counts_its_points_anew() -> None:
+    header = {"type": "sweep", "case": "", "outputs": [], "axes": [], "total": 1}
+    point = {"type": "point", "index": 0, "at": [], "out": [], "status": "ok"}
+    lines = "".join(f"{json.dumps(line)}\n" for line in (header, point, {"type": "end"}))
+    sweep = behind(httpx.Response(200, text=lines), httpx.Response(200, text=lines)).sweep({})
+    assert list(sweep) == list(sweep) == [point]
