@@ -164,13 +164,37 @@ def leaves(model: type[Documented]) -> tuple[Leaf, ...]:
     return tuple(member for member in _all(tree(model)) if isinstance(member, Leaf))
 
 
+def pattern_of(path: str) -> str:
+    """Return a dotted path with `*` instead of the indices of list items."""
+    return ".".join(ITEM if part.isdecimal() else part for part in path.split("."))
+
+
+def is_below(path: str, around: str) -> bool:
+    """Return whether a path is the path `around` or leads to something inside it."""
+    return f"{path}.".startswith(f"{around}.")
+
+
 def leaf_at(model: type[Documented], path: str) -> Leaf | None:
     """Return the leaf at a dotted path, or None if there is no such leaf.
 
     In the path, the index of a list item may be a number or `*`.
     """
-    wanted = ".".join(ITEM if part.isdecimal() else part for part in path.split("."))
-    return _leaf_of(model).get(wanted)
+    return _leaf_of(model).get(pattern_of(path))
+
+
+def matrix_at(model: type[Documented], path: str) -> Leaf | None:
+    """Return the leaf of the matrix whose element is at a dotted path, or None if there is no such matrix."""
+    return leaf_at(model, path.rpartition(".")[0].rpartition(".")[0])
+
+
+def value_at(content: Any, path: str) -> Any:
+    """Return the value at a dotted path of a request or answer; None if a part of the path does not exist."""
+    for part in path.split("."):
+        if isinstance(content, list | tuple):
+            content = content[int(part)] if part.isdecimal() and int(part) < len(content) else None
+        else:
+            content = content.get(part) if isinstance(content, dict) else getattr(content, part, None)
+    return content
 
 
 @cache

@@ -14,7 +14,7 @@ from typing import Any, TextIO
 import pytest
 import uvicorn
 
-from app.command import main, serve, warn_of_few_descriptors
+from app.command import main, serve
 from app.errors import InvalidBody, Unprocessable
 from app.evaluate import answer
 from app.settings import Settings
@@ -127,7 +127,7 @@ def test_the_exit_status_tells_warnings() -> None:
     ("endpoint", "text", "message"),
     [
         ("/v1/coupling", "{", "the body is not valid JSON"),
-        ("/v1/coupling", '{"coupling": {}}', "/operation: operation is required"),
+        ("/v1/coupling", '{"coupling": {}}', "tribodrive: /operation is required"),
         ("/v1/couplings", "{}", "there is no endpoint /v1/couplings"),
     ],
 )
@@ -165,7 +165,9 @@ def test_too_few_descriptors_are_told(
     limit: int, line: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(resource, "getrlimit", lambda _: (limit, 4096))
-    warn_of_few_descriptors()
+    monkeypatch.setattr("app.command.settings", lambda: Settings(port=free_port()))
+    monkeypatch.setattr(uvicorn, "run", lambda *_, **__: None)
+    serve("app.main:app")
     said = capsys.readouterr().err
     assert line in said
     assert bool(said) == bool(line)
