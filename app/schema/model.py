@@ -16,6 +16,7 @@ solver. `Input.of(Record, "field", text=...)` copies the declaration of the solv
 values of an answer. Both take names and units from `members`, which collects them once per model.
 """
 
+import sys
 from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import MISSING, dataclass, fields, is_dataclass
@@ -301,7 +302,9 @@ class Section(Documented):
 
     @classmethod
     def standing_for(cls, record: Any) -> type[Documented]:
-        return generated(Section, record.__name__, {}, of=record)
+        section = generated(Section, record.__name__, {"__module__": cls.__module__}, of=record)
+        setattr(sys.modules[cls.__module__], section.__name__, section)  # where pickle looks on the way to a worker
+        return section
 
     @classmethod
     def _filled(cls, kind: Any, record: Any, name: str, names: dict[str, str], *, nullable: bool) -> tuple[Any, Any]:  # noqa: ARG003
