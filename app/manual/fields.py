@@ -8,15 +8,14 @@ from types import NoneType
 from typing import Any, Literal, NamedTuple, get_args, get_origin
 
 from pydantic import BaseModel
-from pydantic.fields import FieldInfo
 
 from app.calculations import CALCULATIONS
 from app.manual import FIELDS
-from app.schema.fields import ITEM
-from app.schema.model import kinds
-from app.schema.quantities import Input, Output, meaning_of
+from app.schema.fields import walk
+from app.schema.model import Member
+from app.schema.quantities import Input, Output
 from app.studies.kinds import KINDS
-from solvers.quantity import UNITS, allowed
+from solvers.quantity import allowed
 
 COLUMNS = (
     *("field", "endpoints", "type", "unit", "range", "default", "symbol", "source", "meaning", "solver", "schema"),
@@ -65,8 +64,9 @@ def entries(section: str, models: Models) -> tuple[FieldRow, ...]:
     """Return the rows of a section. Fields that differ only in their endpoints share a row."""
     found: dict[tuple[str, ...], dict[str, None]] = {}
     for endpoint, model in models:
-        for field in _fields(model):
-            found.setdefault((f"`{field.path}`", *_cells(field)), {})[endpoint] = None
+        for place in walk(model):
+            if not place.member.groups:
+                found.setdefault((f"`{place.path}`", *_cells(place.member)), {})[endpoint] = None
     rows, places = list[FieldRow](), Counter[str]()
     for (path, *rest), endpoints in found.items():
         places[path] += 1
@@ -87,51 +87,24 @@ def address(endpoint: str, path: str) -> str:
     return f"/manual/{FIELDS}#{anchor}" if anchor else ""
 
 
-class _Field(NamedTuple):
-    """A field that contains a value, and not a section."""
-
-    path: str
-    model: type[BaseModel]  # the class that declares the field
-    name: str
-    info: FieldInfo
-    meaning: Input | Output | None  # None if the field is declared neither as an input nor as an output
-    lists: int
-    kinds: tuple[Any, ...]
-
-
-def _fields(model: type[BaseModel], above: str = "") -> Iterator[_Field]:
-    """Yield every field of a model and of the models inside this model, in the order of the schema."""
-    for name, info in model.model_fields.items():
-        path = f"{above}.{name}" if above else name
-        allowed_kinds = tuple(kinds(info.annotation))
-        lists = max((lists for _, lists in allowed_kinds), default=0)
-        inner = [kind for kind, _ in allowed_kinds if isinstance(kind, type) and issubclass(kind, BaseModel)]
-        for each in inner:
-            yield from _fields(each, path + f".{ITEM}" * lists)
-        if not inner:
-            declaring = next(base for base in model.__mro__ if name in get_annotations(base))
-            found = tuple(kind for kind, _ in allowed_kinds)
-            yield _Field(path, declaring, name, info, meaning_of(info.metadata), lists, found)
-
-
-def _cells(field: _Field) -> tuple[str, ...]:
+def _cells(field: Member) -> tuple[str, ...]:
     """Return the cells of a field's row that follow the path and the endpoints."""
     meaning = field.meaning
-    unit = meaning.unit if meaning else None
+    declaring = next(base for base in field.model.__mro__ if field.name in get_annotations(base))
     return (
         _type(field),
-        UNITS[unit].symbol if unit else "",
+        field.unit.symbol if field.unit else "",
         allowed(meaning) if isinstance(meaning, Input) else "",
         _default(field),
-        (meaning.symbol or "") if meaning else "",
-        (meaning.source or "") if meaning else "",
-        meaning.title if meaning else field.info.description or "",
+        meaning.symbol or "",
+        meaning.source or "",
+        meaning.title,
         _solver(meaning),
-        f"`{field.model.__module__}.{field.model.__qualname__}`",
+        f"`{declaring.__module__}.{declaring.__qualname__}`",
     )
 
 
-def _type(field: _Field) -> str:
+def _type(field: Member) -> str:
     """Return the type of a field's values in words."""
     words = []
     if Any in field.kinds:  # checked by a validator, which brings its own schema
@@ -144,7 +117,7 @@ def _type(field: _Field) -> str:
             words += [f"`{each.value}`" for each in kind]
         else:
             words.append(WORDS.get(kind, "object" if get_origin(kind) is dict or kind is dict else str(kind)))
-    text = ("", "list of ", "matrix of ")[field.lists] + " or ".join(dict.fromkeys(words))
+    text = ("", "list of ", "matrix of ")[field.dimensions] + " or ".join(dict.fromkeys(words))
     return f"{text} or null" if NoneType in get_args(field.info.annotation) else text
 
 
@@ -160,14 +133,14 @@ def _words(document: dict[str, Any]) -> Iterator[str]:
                 yield kind or "any"
 
 
-def _default(field: _Field) -> str:
+def _default(field: Member) -> str:
     """Return the default of an input in the unit of the field; empty for an output."""
     if isinstance(field.meaning, Output):
         return ""
     if field.info.is_required():
         return "required"
     value = field.info.get_default(call_default_factory=True)
-    stated = field.meaning.default_text if field.meaning else None
+    stated = field.meaning.default_text
     if value is None:
         return f"null: {stated}" if stated else "null"
     if isinstance(value, list | dict):
@@ -177,9 +150,9 @@ def _default(field: _Field) -> str:
     return f"{value:.12g}" if isinstance(value, int | float) else f"`{value}`"
 
 
-def _solver(meaning: Input | Output | None) -> str:
+def _solver(meaning: Input | Output) -> str:
     """Return the dotted name of the solver's attribute, in the class that declares it; empty if there is none."""
-    if meaning is None or meaning.origin is None:
+    if meaning.origin is None:
         return ""
     record, name = meaning.origin
     owner: Any = next(base for base in record.__mro__ if name in get_annotations(base) or name in vars(base))

@@ -140,7 +140,7 @@ class Card:
     """A model: the name of its chapter, its endpoints, and what the start page shows.
 
     `subject` is what its pages hand to those of other models: a gear "pair", a "coupling", or nothing.
-    `start_figure` is the figure of the first endpoint on the start page.
+    `start_figure` is the figure of the first endpoint on the start page; empty: none.
     """
 
     name: str

@@ -13,7 +13,7 @@ from app.calculations import BY_PATH, CALCULATIONS, Calculation, card_of
 from app.pages.cases import Asked
 from app.pages.query import LONGEST_QUERY, Pairs, link, pairs_of_query
 from app.pages.templating import page_path
-from app.schema.fields import ITEM, Branch, Leaf, branches, leaf_at, tree
+from app.schema.fields import Branch, Leaf, branches, is_below, leaf_at, matrix_at, pattern_of, tree
 from app.schema.model import Documented
 
 LOAD, OPERATION = "load.", "operation."
@@ -79,9 +79,7 @@ def _there(calculation: Calculation, name: str) -> str:
 
 def _has(model: type[Documented], name: str) -> bool:
     """Return whether a request has a field, a matrix element or an optional section of this name."""
-    section = ".".join(ITEM if part.isdecimal() else part for part in name.split("."))
-    matrix = name.rpartition(".")[0].rpartition(".")[0]
-    return leaf_at(model, name) is not None or leaf_at(model, matrix) is not None or section in branches(model)
+    return bool(leaf_at(model, name) or matrix_at(model, name)) or pattern_of(name) in branches(model)
 
 
 def _missing(branch: Branch, names: set[str]) -> Iterator[str]:
@@ -117,4 +115,4 @@ def _leaf(branch: Branch, path: str) -> Leaf | None:
 
 def _is_given(path: str, names: set[str]) -> bool:
     """Return whether `names` contains the path of a section, or the path of a field in this section."""
-    return any(name == path or name.startswith(f"{path}.") for name in names)
+    return any(is_below(name, path) for name in names)

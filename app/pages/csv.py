@@ -13,9 +13,8 @@ from app.pages.cases import SolvedCase
 from app.pages.results import entries, flattened
 from app.pages.typed import text_of
 from app.schema.answers import Response
-from app.schema.fields import ITEM, Leaf, leaf_at, leaves
+from app.schema.fields import ITEM, Leaf, is_below, leaf_at, leaves, pattern_of, value_at
 from app.spreadsheet import csv_of
-from app.studies.fields import value_at
 
 DIGITS = 6  # significant digits; because of the tolerances of the solvers, fewer digits are accurate
 
@@ -62,11 +61,10 @@ def curve(response: Response, path: str) -> bytes:
     """
     model = type(response)
     indices = [part for part in path.split(".") if part.isdecimal()]
-    pattern = ".".join(ITEM if part.isdecimal() else part for part in path.split("."))
     wanted = [
         replace(leaf, path=_placed(leaf.path, indices), axes=tuple(_placed(axis, indices) for axis in leaf.axes))
         for leaf in leaves(model)
-        if leaf.dimensions and f"{leaf.path}.".startswith(f"{pattern}.")
+        if leaf.dimensions and is_below(leaf.path, pattern_of(path))
     ]
     contents = {leaf.path: content for leaf in wanted if (content := value_at(response, leaf.path))}
     shape = max((leaf.dimensions for leaf in wanted if leaf.path in contents), default=0)

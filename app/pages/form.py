@@ -14,7 +14,7 @@ from app.manual.fields import address as row_address
 from app.pages.query import MATRIX, PICK, PRESENT, SIDE, excluded
 from app.pages.typed import text_of
 from app.pages.typesetting import cited, symbol, words
-from app.schema.fields import Branch, Leaf, branches, leaf_at, tree
+from app.schema.fields import Branch, Leaf, branches, is_below, leaf_at, tree
 from app.schema.model import Request
 from app.schema.model import Section as Fields
 from app.schema.quantities import split_unit
@@ -194,7 +194,7 @@ def _section(title: str, blocks: Iterable[Block], state: FormState, paths: list[
 
 def _count(names: Iterable[str], path: str) -> int:
     """Count the `names` that are equal to `path` or lie below `path`."""
-    return sum(name == path or name.startswith(f"{path}.") for name in names)
+    return sum(is_below(name, path) for name in names)
 
 
 def _branch(branch: Branch, path: str, state: FormState, item: int | None = None) -> FormSection:

@@ -7,6 +7,7 @@ from math import pi
 from typing import Any
 
 from app.calculations import BY_PATH, Calculation, card_of
+from app.examples import Example
 from app.manual import chapters
 from app.pages.form import title_of
 from app.pages.query import link, pairs_of
@@ -27,19 +28,15 @@ def start_page(root: str) -> str:
 
 
 def _entry(calculations: list[Calculation]) -> dict[str, Any]:
-    """Return the entry of a model on the start page: a question, a figure, and the calculations of the model."""
+    """Return the entry of a model on the start page: a question, its picture, and the calculations of the model."""
     first = calculations[0]
     of_first = examples_of(first)
     example = next((example for example in of_first if example.title.endswith("?")), of_first[0])
-    figure = next(figure for figure in first.figures if figure.name == card_of(first).start_figure)
-    image, pairs = f"{page_path(first)}/figures/{figure.name}.svg", pairs_of(example.request)
     return {
         "chapter": chapters()[model_of(first)],
         "question": example.title,
         "address": example_link(first, example),
-        "figure": figure.title,
-        "image": link(image, pairs),
-        "dark": link(image, pairs, theme="dark"),
+        "picture": _picture(first, example) if card_of(first).start_figure else None,
         "calculations": [
             (
                 calculation,
@@ -50,6 +47,13 @@ def _entry(calculations: list[Calculation]) -> dict[str, Any]:
         ],
         "studies": [study for calculation in calculations for study in studies_of(calculation)[:1]],
     }
+
+
+def _picture(calculation: Calculation, example: Example) -> dict[str, str]:
+    """Return the text and the addresses of the start figure of a calculation, for an example."""
+    figure = next(figure for figure in calculation.figures if figure.name == card_of(calculation).start_figure)
+    address, pairs = f"{page_path(calculation)}/figures/{figure.name}.svg", pairs_of(example.request)
+    return {"title": figure.title, "light": link(address, pairs), "dark": link(address, pairs, theme="dark")}
 
 
 def unit_page(root: str, unit: dict[str, Any], name: str = "", sha256: str = "") -> str:

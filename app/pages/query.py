@@ -21,7 +21,7 @@ from app.pages.typed import (
     table_in_link,
     text_of,
 )
-from app.schema.fields import ITEM, Leaf, branches, leaf_at
+from app.schema.fields import Leaf, branches, leaf_at, matrix_at, pattern_of
 from app.schema.model import Documented
 
 Pairs = list[tuple[str, str]]
@@ -122,7 +122,7 @@ def _in_link(model: type[Documented], name: str, text: str, others: dict[str, st
             return in_link(text, unit)
         deviation = in_link(text, difference_unit(unit))
         return deviation if deviation != text else in_link(text, unit)
-    leaf = leaf_at(model, name) or leaf_at(model, name.rpartition(".")[0].rpartition(".")[0])
+    leaf = leaf_at(model, name) or matrix_at(model, name)
     if leaf is None or leaf.options or leaf.kind not in {"number", "integer"}:
         return text
     return list_in_link(text, leaf.unit) if leaf.dimensions == 1 else in_link(text, leaf.unit)
@@ -220,10 +220,9 @@ def link(path: str, pairs: Pairs, **views: str | None) -> str:
 def _value(model: type[Documented], name: str, text: str) -> Any:
     leaf = leaf_at(model, name)
     if leaf is None:
-        section = ".".join(ITEM if part.isdecimal() else part for part in name.split("."))
-        if text == PRESENT and section in branches(model):
+        if text == PRESENT and pattern_of(name) in branches(model):
             return {}
-        return number_of(text) if leaf_at(model, name.rpartition(".")[0].rpartition(".")[0]) else text
+        return number_of(text) if matrix_at(model, name) else text
     if leaf.dimensions == 1:
         return _listed(leaf, text)
     if leaf.options:

@@ -12,8 +12,7 @@ from app.examples import examples, studies
 from app.pages.query import Pairs, link, pairs_of
 from app.pages.study_kinds import LINKS, VARY, StudyLink
 from app.pages.templating import page_path
-from app.schema.fields import leaf_at
-from app.studies.fields import value_at
+from app.schema.fields import leaf_at, value_at
 
 AROUND = (0.5, 1.5)  # ends of the range in which a derived value is varied, as multiples of the value
 

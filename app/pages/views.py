@@ -21,7 +21,7 @@ from app.pages.templating import example_link, examples_of, page_path, rendered
 from app.pages.typed import as_typed, question
 from app.pages.typesetting import NO_VALUE
 from app.pages.variants import variants_of, with_this
-from app.schema.fields import headlines, leaf_at
+from app.schema.fields import headlines, is_below, leaf_at
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +116,7 @@ def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Show
 def _asked_back(pairs: Pairs, faults: list[FormFault]) -> list[FormFault]:
     """Return the faults; if the text of a field has two readings, replace the faults of this field by a question."""
     asked = {name: question(text) for name, text in pairs if question(text)}
-    named = ((next((name for name in asked if f"{fault.path}.".startswith(f"{name}.")), ""), fault) for fault in faults)
+    named = ((next((name for name in asked if is_below(fault.path, name)), ""), fault) for fault in faults)
     return [*dict.fromkeys(FormFault(name, asked[name]) if name else fault for name, fault in named)]
 
 

@@ -17,6 +17,7 @@ from app.rexs.document import Document, File, read, with_attributes
 from app.rexs.model import Attribute
 from app.rexs.reading import AssumedValue, Fault, MissingValue, Unused
 from app.rexs.unit import gear_unit
+from app.schema.fields import value_at
 from app.schema.quantities import Output
 from app.schema.reading import content_of, validated
 
@@ -127,10 +128,7 @@ def with_answer(document: Document, stage: int, endpoint: str, answer: dict[str,
     """Return the file with new attributes of the stage."""
     major, written = int(document.model.version.split(".")[0]), []
     for path, name, unit in BY_PATH[endpoint].words.to_file:
-        value: Any = answer
-        for part in path.split("."):
-            value = value.get(part) if isinstance(value, dict) else None
-        if value is not None:
+        if (value := value_at(answer, path)) is not None:
             custom = major < table.STANDARD_FROM.get(name, major + 1)
             written.append(Attribute(f"{table.CUSTOM if custom else ''}{name}", unit, value))
     written += [Attribute(f"{table.CUSTOM}{name}", "none", answer[name]) for name in ("status", "case")]

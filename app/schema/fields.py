@@ -11,7 +11,9 @@ from enum import Enum
 from functools import cache
 from itertools import product
 from types import NoneType
-from typing import Any, Literal, get_args, get_origin
+from typing import Any, Literal, NamedTuple, get_args, get_origin
+
+from pydantic import BaseModel
 
 from app.schema.model import Documented, Member, members
 from app.schema.quantities import Output, View
@@ -19,6 +21,7 @@ from solvers.quantity import Detail, Quantity
 
 Kind = Literal["number", "integer", "boolean", "text", "other"]
 _KINDS: dict[Any, Kind] = {float: "number", int: "integer", bool: "boolean", str: "text"}
+Names = tuple[str, ...]
 ITEM = "*"
 """Placeholder for the index of a list item in a path: `grooves.*.position_mm`."""
 
@@ -92,6 +95,36 @@ class Branch:
         )
 
 
+class Place(NamedTuple):
+    """A field or section of a model: the sections around it, the outermost first, and then itself."""
+
+    way: tuple[Member, ...]
+
+    @property
+    def member(self) -> Member:
+        """The field or section itself."""
+        return self.way[-1]
+
+    def names(self, *, solvers: bool = False) -> Names:
+        """Return the names on the way, of the interface or of the solver; after the name of a list stands `*`."""
+        names = ((member.solver_name if solvers else member.name, member.dimensions) for member in self.way)
+        return tuple(part for name, dimensions in names for part in ((name, ITEM) if dimensions else (name,)))
+
+    @property
+    def path(self) -> str:
+        """The dotted path of the field or section."""
+        return ".".join(self.names()).removesuffix(f".{ITEM}")
+
+
+def walk(model: type[BaseModel], above: tuple[Member, ...] = ()) -> Iterator[Place]:
+    """Yield every field and section of a model, in the order of the schema; `above` is the way to the model."""
+    for member in members(model):
+        way = (*above, member)
+        yield Place(way)
+        for group in member.groups:
+            yield from walk(group, way)
+
+
 @cache
 def tree(model: type[Documented]) -> Branch:
     """Return the whole request or response as one section without a name.
@@ -100,22 +133,23 @@ def tree(model: type[Documented]) -> Branch:
     supplement. This is the innermost section whose title distinguishes the leaf from the other leaves. Where no section
     does for several leaves, these get the titles of all sections around them; a single such leaf keeps its title.
     """
+    places = [*walk(model)]
     namesakes: dict[str, dict[str, list[str]]] = defaultdict(dict)
-    for way in _ways(model):
-        *around, leaf = way
-        if leaf.group is None:
-            namesakes[leaf.meaning.title][_path(way)] = [section.meaning.title for section in reversed(around)]
+    for place in places:
+        if not place.member.groups:
+            sections = [section.meaning.title for section in place.way[-2::-1]]
+            namesakes[place.member.meaning.title][place.path] = sections
     titles = {}
-    for title, places in namesakes.items():
+    for title, around in namesakes.items():
         telling = {
-            path: next((name for name in sections if sum(name in others for others in places.values()) == 1), None)
-            for path, sections in places.items()
+            path: next((name for name in sections if sum(name in others for others in around.values()) == 1), None)
+            for path, sections in around.items()
         }
         untold = [path for path, section in telling.items() if section is None]
         for path, section in telling.items():
-            supplements = [section] if section else places[path] if len(untold) > 1 else []
-            titles[path] = ", ".join([title, *supplements]) if len(places) > 1 else title
-    return Branch("", "", "", model, _below(model, (), titles))
+            supplements = [section] if section else around[path] if len(untold) > 1 else []
+            titles[path] = ", ".join([title, *supplements]) if len(around) > 1 else title
+    return Branch("", "", "", model, _nested(places, titles))
 
 
 @cache
@@ -130,13 +164,37 @@ def leaves(model: type[Documented]) -> tuple[Leaf, ...]:
     return tuple(member for member in _all(tree(model)) if isinstance(member, Leaf))
 
 
+def pattern_of(path: str) -> str:
+    """Return a dotted path with `*` instead of the indices of list items."""
+    return ".".join(ITEM if part.isdecimal() else part for part in path.split("."))
+
+
+def is_below(path: str, around: str) -> bool:
+    """Return whether a path is the path `around` or leads to something inside it."""
+    return f"{path}.".startswith(f"{around}.")
+
+
 def leaf_at(model: type[Documented], path: str) -> Leaf | None:
     """Return the leaf at a dotted path, or None if there is no such leaf.
 
     In the path, the index of a list item may be a number or `*`.
     """
-    wanted = ".".join(ITEM if part.isdecimal() else part for part in path.split("."))
-    return _leaf_of(model).get(wanted)
+    return _leaf_of(model).get(pattern_of(path))
+
+
+def matrix_at(model: type[Documented], path: str) -> Leaf | None:
+    """Return the leaf of the matrix whose element is at a dotted path, or None if there is no such matrix."""
+    return leaf_at(model, path.rpartition(".")[0].rpartition(".")[0])
+
+
+def value_at(content: Any, path: str) -> Any:
+    """Return the value at a dotted path of a request or answer; None if a part of the path does not exist."""
+    for part in path.split("."):
+        if isinstance(content, list | tuple):
+            content = content[int(part)] if part.isdecimal() and int(part) < len(content) else None
+        else:
+            content = content.get(part) if isinstance(content, dict) else getattr(content, part, None)
+    return content
 
 
 @cache
@@ -165,78 +223,44 @@ def _all(member: Leaf | Branch) -> Iterator[Leaf | Branch]:
             yield from _all(inner)
 
 
-_Way = tuple[Member, ...]
-_Names = tuple[str, ...]
+def _nested(places: list[Place], titles: dict[str, str]) -> tuple[Leaf | Branch, ...]:
+    """Return the fields and sections of a whole model. `titles` maps the paths of leaves to their titles."""
+    members: dict[str, tuple[Leaf | Branch, ...]] = defaultdict(tuple)
+    for place in reversed(places):  # what is in a section before the section itself
+        around = place.path.rpartition(".")[0].removesuffix(f".{ITEM}")
+        made = _branch(place, members[place.path]) if place.member.groups else _leaf(place, titles[place.path])
+        members[around] = (made, *members[around])
+    return members[""]
 
 
-def _ways(model: type[Documented], above: _Way = ()) -> Iterator[_Way]:
-    """Yield the way to every field and to every section of a model. `above` is the way to the model itself.
+def _branch(place: Place, members: tuple[Leaf | Branch, ...]) -> Branch:
+    meaning = place.member.meaning
+    return Branch(
+        path=place.path,
+        title=meaning.title,
+        description=meaning.description,
+        model=place.member.groups[0],
+        members=members,
+        repeated=place.member.dimensions > 0,
+        optional=NoneType in get_args(place.member.info.annotation),
+        advanced=meaning.advanced,
+    )
 
-    A way lists the sections around a field or section, the outermost section first. Its last item is the field or
-    section itself.
+
+def _leaf(place: Place, title: str) -> Leaf:
+    """Return the leaf at a place.
+
+    Its level of detail is the level that the field declares; if that is `summary`, the level of the innermost section
+    around it that declares another one.
     """
-    for member in members(model):
-        yield (*above, member)
-        if member.group:
-            yield from _ways(member.group, (*above, member))
-
-
-def _names(way: _Way, *, solvers: bool = False) -> _Names:
-    """Return the names of the sections on a way, and the name of the field at its end.
-
-    A way is the chain of sections that leads to a field. The names are those of the solver if `solvers` is set,
-    otherwise those of the interface. After the name of a list, `*` stands for the index.
-    """
-    names = ((member.solver_name if solvers else member.name, member.dimensions) for member in way)
-    return tuple(part for name, dimensions in names for part in ((name, ITEM) if dimensions else (name,)))
-
-
-def _path(way: _Way) -> str:
-    return ".".join(_names(way)).removesuffix(f".{ITEM}")
-
-
-def _below(model: type[Documented], above: _Way, titles: dict[str, str]) -> tuple[Leaf | Branch, ...]:
-    """Return the fields and sections of a model.
-
-    `above` is the way to the model. `titles` maps the paths of leaves to their titles.
-    """
-    below: list[Leaf | Branch] = []
-    for member in members(model):
-        way = (*above, member)
-        if member.group is None:
-            below.append(_leaf(model, way, titles))
-            continue
-        below.append(
-            Branch(
-                _path(way),
-                member.meaning.title,
-                member.meaning.description,
-                member.group,
-                _below(member.group, way, titles),
-                repeated=member.dimensions > 0,
-                optional=NoneType in get_args(member.info.annotation),
-                advanced=member.meaning.advanced,
-            )
-        )
-    return tuple(below)
-
-
-def _leaf(model: type[Documented], way: _Way, titles: dict[str, str]) -> Leaf:
-    """Return the leaf at the end of a way.
-
-    A way is the chain of sections that leads to a field, and ends with the field. The level of detail of the leaf is
-    the level that the field declares. If the field declares the level `summary`, the leaf has the level of the
-    innermost section that declares another level. If no section declares another level, the leaf has the level
-    `summary`.
-    """
-    member, path = way[-1], _path(way)
-    info, meaning, prefix = member.info, member.meaning, path.rpartition(".")[0]
-    options = _options(member.kinds)
-    fellows = (name for group in model.exclusive if member.name in group for name in group if name != member.name)
-    details = (step.meaning.detail for step in reversed(way) if step.meaning.detail != "summary")
+    member, prefix = place.member, place.path.rpartition(".")[0]
+    info, meaning, options = member.info, member.meaning, _options(member.kinds)
+    groups: tuple[tuple[str, ...], ...] = getattr(member.model, "exclusive", ())
+    fellows = (name for group in groups if member.name in group for name in group if name != member.name)
+    details = (step.meaning.detail for step in reversed(place.way) if step.meaning.detail != "summary")
     return Leaf(
-        path=path,
-        title=titles[path],
+        path=place.path,
+        title=title,
         declared=meaning,
         view=meaning if isinstance(meaning, Output) else View(),
         description=meaning.description,
@@ -247,7 +271,7 @@ def _leaf(model: type[Documented], way: _Way, titles: dict[str, str]) -> Leaf:
         required=info.is_required(),
         default=None if info.is_required() else info.get_default(call_default_factory=True),
         options=options,
-        advanced=any(step.meaning.advanced for step in way),
+        advanced=any(step.meaning.advanced for step in place.way),
         exclusive=tuple(_absolute(fellow, prefix) for fellow in fellows),
         detail=next(details, "summary"),
         axes=tuple(_absolute(axis, prefix) for axis in meaning.axes) if isinstance(meaning, Output) else (),
@@ -293,13 +317,13 @@ def field_path(request: Documented, name: str | None) -> str | None:
 
 
 @cache
-def _by_solvers_names(model: type[Documented]) -> tuple[dict[_Names, _Names], dict[_Names, _Names]]:
+def _by_solvers_names(model: type[Documented]) -> tuple[dict[Names, Names], dict[Names, Names]]:
     """Return the names of fields and list items in the interface, by the solver's names: all, and without sections."""
-    own: dict[_Names, _Names] = {}
-    for way in _ways(model):
-        theirs, ours = _names(way, solvers=True), _names(way)
-        own |= {theirs: ours} | ({theirs[:-1]: ours[:-1]} if way[-1].dimensions else {})
-    brief: dict[_Names, _Names] = {}
+    own: dict[Names, Names] = {}
+    for place in walk(model):
+        theirs, ours = place.names(solvers=True), place.names()
+        own |= {theirs: ours} | ({theirs[:-1]: ours[:-1]} if place.member.dimensions else {})
+    brief: dict[Names, Names] = {}
     for *around, last in sorted(own, key=len):
         for kept in product((True, False), repeat=len(around)):
             names = (name for name, keep in zip(around, kept, strict=True) if keep or name == ITEM)
@@ -307,7 +331,7 @@ def _by_solvers_names(model: type[Documented]) -> tuple[dict[_Names, _Names], di
     return own, brief
 
 
-def _sent(request: Documented, path: _Names, indices: Iterator[str]) -> str | None:
+def _sent(request: Documented, path: Names, indices: Iterator[str]) -> str | None:
     """Return the dotted path of a request field, with the indices of list items.
 
     `path` has `*` instead of every index, and `indices` yields the indices. If the request gives an alternative

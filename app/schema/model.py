@@ -16,6 +16,7 @@ solver. `Input.of(Record, "field", text=...)` copies the declaration of the solv
 values of an answer. Both take names and units from `members`, which collects them once per model.
 """
 
+import sys
 from abc import abstractmethod
 from collections.abc import Iterator
 from dataclasses import MISSING, dataclass, fields, is_dataclass
@@ -207,10 +208,11 @@ class Member:
     of the field in this dataclass. If the class body of the model contains the declaration, `record` is None, and
     `solver_name` is `name` without the unit.
 
-    `kinds` are the types that a single value of the field may have. If the field is a section, `group` is the model of
-    this section; otherwise `group` is None. `dimensions` is 0 for a scalar, 1 for a list, 2 for a matrix.
+    `kinds` are the types that a single value of the field may have, and `groups` those of them that are models: the
+    field is then a section. `dimensions` is 0 for a scalar, 1 for a list, 2 for a matrix.
     """
 
+    model: type[BaseModel]
     name: str
     info: FieldInfo
     meaning: Input | Output
@@ -218,23 +220,27 @@ class Member:
     solver_name: str
     unit: Unit | None
     kinds: tuple[Any, ...]
-    group: type[Documented] | None
+    groups: tuple[type[Any], ...]
     dimensions: int
+
+    @property
+    def group(self) -> type[Documented] | None:
+        """The model of the section; None if the field is no section. Sections of calculations have one model each."""
+        return self.groups[0] if self.groups else None
 
 
 @cache
 def members(model: type[BaseModel]) -> tuple[Member, ...]:
-    """Return the fields of a model that have an `Input` or `Output`."""
-    declared = []
+    """Return the fields of a model. A field without an `Input` or `Output` means what its description says."""
+    found = []
     for name, info in model.model_fields.items():
-        if meaning := meaning_of(info.metadata):
-            record, solver_name = meaning.origin or (None, name.removesuffix(f"_{meaning.unit}"))
-            unit = UNITS[meaning.unit] if meaning.unit else None
-            allowed, lists = zip(*kinds(info.annotation), strict=True)
-            groups = (kind for kind in allowed if isinstance(kind, type) and issubclass(kind, Documented))
-            group, dimensions = next(groups, None), max(lists)
-            declared.append(Member(name, info, meaning, record, solver_name, unit, allowed, group, dimensions))
-    return tuple(declared)
+        meaning = meaning_of(info.metadata) or Input(info.description or "")
+        record, solver_name = meaning.origin or (None, name.removesuffix(f"_{meaning.unit}"))
+        unit = UNITS[meaning.unit] if meaning.unit else None
+        allowed, lists = zip(*kinds(info.annotation), strict=True)
+        groups = tuple(kind for kind in allowed if isinstance(kind, type) and issubclass(kind, BaseModel))
+        found.append(Member(model, name, info, meaning, record, solver_name, unit, allowed, groups, max(lists)))
+    return tuple(found)
 
 
 @cache
@@ -296,7 +302,9 @@ class Section(Documented):
 
     @classmethod
     def standing_for(cls, record: Any) -> type[Documented]:
-        return generated(Section, record.__name__, {}, of=record)
+        section = generated(Section, record.__name__, {"__module__": cls.__module__}, of=record)
+        setattr(sys.modules[cls.__module__], section.__name__, section)  # where pickle looks on the way to a worker
+        return section
 
     @classmethod
     def _filled(cls, kind: Any, record: Any, name: str, names: dict[str, str], *, nullable: bool) -> tuple[Any, Any]:  # noqa: ARG003

@@ -7,7 +7,7 @@ from difflib import get_close_matches
 from typing import Any
 
 from app.errors import Unprocessable
-from app.schema.fields import ITEM, Leaf, leaf_at, leaves
+from app.schema.fields import ITEM, Leaf, leaf_at, leaves, value_at
 from app.schema.model import Documented
 from app.studies.requests import Scalar
 from solvers.quantity import allowed
@@ -90,16 +90,6 @@ def check_value(leaf: Leaf, value: Scalar, place: str) -> None:
     if reason := fault(leaf, value):
         code, message = reason
         raise Unprocessable(code, f"{leaf.path}: {message}", place)
-
-
-def value_at(content: Any, path: str) -> Any:
-    """Return the value at a dotted path of a request or answer; None if a part of the path does not exist."""
-    for part in path.split("."):
-        if isinstance(content, list | tuple):
-            content = content[int(part)] if part.isdecimal() and int(part) < len(content) else None
-        else:
-            content = content.get(part) if isinstance(content, dict) else getattr(content, part, None)
-    return content
 
 
 def is_number(value: Any) -> bool:

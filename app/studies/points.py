@@ -14,10 +14,10 @@ from app.calculations import BY_PATH, Calculation
 from app.errors import PROBLEMS, InvalidBody, Unprocessable, faults_of
 from app.evaluate import evaluate, refuse_endless
 from app.models.card import Pump
-from app.schema.fields import Leaf, headlines
+from app.schema.fields import Leaf, headlines, value_at
 from app.schema.model import Request
 from app.schema.reading import validated
-from app.studies.fields import clear_excluded, scalar_at, set_value, value_at
+from app.studies.fields import clear_excluded, scalar_at, set_value
 from app.studies.requests import Overrides
 from solvers.errors import InvalidInput, NoSolution
 from solvers.heat_balance import Cooling

@@ -15,9 +15,9 @@ from app.pages.studies import PAGES
 from app.pages.studies.controls import Control
 from app.pages.studies.page import Controls, Result, StudyPage
 from app.pages.study_kinds import LINKS, StudyLink
+from app.schema.fields import value_at
 from app.schema.quantities import Input
 from app.studies import runner
-from app.studies.fields import value_at
 from app.studies.kinds import KINDS
 from app.studies.requests import FieldPath, StudyRequest
 from app.studies.runner import Study

@@ -2,7 +2,7 @@
 
 import asyncio
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import AsyncIterator, Callable, Iterator
 
 import httpx
 import pytest
@@ -163,16 +163,48 @@ def test_idle_connections_end_before_the_service_closes_them() -> None:
     assert OPTIONS["limits"].keepalive_expiry < uvicorn.Config("app.main:app").timeout_keep_alive
 
 
-def test_a_broken_connection_and_deep_json_are_errors_of_the_service() -> None:
-    def breaks(_: httpx.Request) -> httpx.Response:
-        raise httpx.ConnectError("refused")
+def breaks(_: httpx.Request) -> httpx.Response:
+    raise httpx.ConnectError("refused")
 
-    with pytest.raises(ServiceError, match="refused"):
-        Tribodrive(transport=httpx.MockTransport(breaks)).coupling({})
-    with pytest.raises(ServiceError, match="refused"):
-        list(Tribodrive(transport=httpx.MockTransport(breaks)).sweep({}))
+
+def test_a_broken_connection_is_an_error_of_the_service() -> None:
+    service = Tribodrive(transport=httpx.MockTransport(breaks))
+    for ask in (service.coupling, service.example, lambda request: list(service.sweep(request))):
+        with pytest.raises(ServiceError, match="refused"):
+            ask({})
+
+    async def ask_async() -> list[object]:
+        async with AsyncTribodrive(transport=httpx.MockTransport(breaks)) as client:
+            asked = (client.coupling({}), client.example(""), client.sweep({}).frame())
+            return list(await asyncio.gather(*asked, return_exceptions=True))
+
+    errors = asyncio.run(ask_async())
+    assert [type(error) for error in errors] == [ServiceError] * 3
+    assert all("refused" in str(error) for error in errors)
+
+
+def test_a_connection_that_breaks_during_a_study_is_told() -> None:
+    def lines() -> Iterator[bytes]:
+        yield b'{"type": "sweep", "case": "0", "axes": [], "outputs": [], "total": 2}\n'
+        raise httpx.ReadError("reset")
+
+    async def lines_async() -> AsyncIterator[bytes]:
+        for line in lines():
+            yield line
+
+    with pytest.raises(StudyError, match="before the study's end: reset"):
+        list(behind(httpx.Response(200, content=lines())).sweep({}))
+    torn = httpx.MockTransport(lambda _: httpx.Response(200, content=lines_async()))
+    with pytest.raises(StudyError, match="before the study's end: reset"):
+        asyncio.run(AsyncTribodrive(transport=torn).sweep({}).frame())
+
+
+def test_deep_json_is_an_error_of_the_service() -> None:
+    deep = httpx.Response(200, text="[" * 100_000)
     with pytest.raises(ServiceError, match="not a JSON object"):
-        behind(httpx.Response(200, text="[" * 100_000)).coupling({})
+        behind(deep).coupling({})
+    with pytest.raises(StudyError, match="does not belong to a study"):
+        list(behind(deep).sweep({}))
 
 
 @pytest.mark.parametrize(("indices", "words"), [((0,), "has 2 points, but 1 arrived"), ((0, 0, 1), "0 twice")])
@@ -182,3 +214,11 @@ def test_missing_and_doubled_points_of_a_sweep_are_noticed(indices: tuple[int, .
     lines = "".join(f"{json.dumps(line)}\n" for line in [header, *points, {"type": "end"}])
     with pytest.raises(StudyError, match=words):
         list(behind(httpx.Response(200, text=lines)).sweep({}))
+
+
+def test_a_study_that_is_read_again_counts_its_points_anew() -> None:
+    header = {"type": "sweep", "case": "", "outputs": [], "axes": [], "total": 1}
+    point = {"type": "point", "index": 0, "at": [], "out": [], "status": "ok"}
+    lines = "".join(f"{json.dumps(line)}\n" for line in (header, point, {"type": "end"}))
+    sweep = behind(httpx.Response(200, text=lines), httpx.Response(200, text=lines)).sweep({})
+    assert list(sweep) == list(sweep) == [point]

@@ -1,5 +1,6 @@
 """The function `answer` and the command `solve` answer requests without a server; `fields` lists all fields."""
 
+import asyncio
 import io
 import json
 import os
@@ -11,11 +12,13 @@ from pathlib import Path
 from typing import Any, TextIO
 
 import pytest
+import uvicorn
 
-from app.command import main, warn_of_few_descriptors
+from app.command import main, serve
 from app.errors import InvalidBody, Unprocessable
 from app.evaluate import answer
-from tests.support.server import ROOT
+from app.settings import Settings
+from tests.support.server import ROOT, free_port
 
 COUPLING: dict[str, Any] = {
     "coupling": {"teeth": 52, "module_mm": 3, "crowning_ratio": 1},
@@ -122,7 +125,7 @@ def test_the_exit_status_tells_warnings() -> None:
     ("endpoint", "text", "message"),
     [
         ("/v1/coupling", "{", "the body is not valid JSON"),
-        ("/v1/coupling", '{"coupling": {}}', "/operation: operation is required"),
+        ("/v1/coupling", '{"coupling": {}}', "tribodrive: /operation is required"),
         ("/v1/couplings", "{}", "there is no endpoint /v1/couplings"),
     ],
 )
@@ -160,7 +163,33 @@ def test_too_few_descriptors_are_told(
     limit: int, line: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(resource, "getrlimit", lambda _: (limit, 4096))
-    warn_of_few_descriptors()
+    monkeypatch.setattr("app.command.settings", lambda: Settings(port=free_port()))
+    monkeypatch.setattr(uvicorn, "run", lambda *_, **__: None)
+    serve("app.main:app")
     said = capsys.readouterr().err
     assert line in said
     assert bool(said) == bool(line)
+
+
+@pytest.mark.parametrize(
+    ("proxies", "client"),
+    [("", "127.0.0.1"), ("192.0.2.1", "127.0.0.1"), ("192.0.2.1,127.0.0.1", "192.0.2.7"), ("*", "192.0.2.7")],
+)
+def test_x_forwarded_for_is_believed_from_the_proxies_of_the_settings_alone(
+    proxies: str, client: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    seen: list[Any] = []
+
+    async def application(scope: Any, _receive: Any, _send: Any) -> None:
+        seen.append(scope["client"][0])
+
+    monkeypatch.setenv("FORWARDED_ALLOW_IPS", "*")  # uvicorn's own variable
+    monkeypatch.setattr("app.command.settings", lambda: Settings(port=free_port(), proxies=proxies))
+    monkeypatch.setattr(uvicorn, "run", lambda _, **options: seen.append(uvicorn.Config(application, **options)))
+    serve("app.main:app")
+    config = seen.pop()
+    config.load()
+    headers = [(b"x-forwarded-for", b"192.0.2.7")]
+    scope = {"type": "http", "client": ("127.0.0.1", 50000), "scheme": "http", "headers": headers}
+    asyncio.run(config.loaded_app(scope, None, None))
+    assert seen == [client]

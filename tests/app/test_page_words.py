@@ -1,19 +1,22 @@
 """The words on the pages agree with the numbers, and the pages do not show names of the interface."""
 
 import re
+from dataclasses import replace
 from html import unescape
 from typing import Any
 
 import numpy as np
 import pytest
 
-from app.calculations import BY_PATH, CALCULATIONS
+from app.calculations import BY_PATH, CALCULATIONS, CARDS, card_of
 from app.examples import examples
 from app.figures.data import Axis
 from app.figures.studies import Coordinate, Grid, answer
 from app.figures.wording import to_digits
+from app.models.card import Calculation, Card
+from app.pages import overview
 from app.pages.cases import Asked, solved
-from app.pages.overview import unit_page
+from app.pages.overview import start_page, unit_page
 from app.pages.query import WRITTEN, from_form, link, pairs_of
 from app.pages.results import cards, conclusion, verdicts
 from app.pages.studies.sensitivity import SensitivityPage
@@ -234,3 +237,17 @@ def test_the_page_of_a_gear_unit_has_no_name_of_the_interface() -> None:
     assert "normal backlash: needed" in text
     assert "profile shift" in text
     assert not WORDS.findall(text)
+
+
+def test_a_model_without_a_start_figure_stands_on_the_start_page(monkeypatch: pytest.MonkeyPatch) -> None:
+    pictures = start_page.__wrapped__("").count("<picture>")
+    (bare,) = (card for card in CARDS if card.name == "pumping")
+
+    def shown_by(calculation: Calculation) -> Card:
+        card = card_of(calculation)
+        return replace(card, start_figure="") if card is bare else card
+
+    monkeypatch.setattr(overview, "card_of", shown_by)
+    page = start_page.__wrapped__("")
+    assert page.count("<picture>") == pictures - 1
+    assert all(calculation.title in page for calculation in CALCULATIONS)

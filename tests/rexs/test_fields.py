@@ -13,7 +13,7 @@ from app.evaluate import evaluate
 from app.rexs.document import read
 from app.rexs.table import UNITS
 from app.rexs.unit import gear_unit
-from app.schema.fields import leaves
+from app.schema.fields import leaves, value_at
 from solvers.gears.gear import involute
 from solvers.gears.pair import inverse_involute
 from tests.rexs.units import Unit, Value, three_stages, turbo_unit
@@ -35,15 +35,6 @@ def stage_of(unit: Unit) -> dict[str, Any]:
 
 def first(unit: Unit, type_: str) -> int:
     return next(int(each["id"]) for each in unit.components if each["type"] == type_)
-
-
-def value_at(request: dict[str, Any], path: str) -> Any:
-    found: Any = request
-    for part in path.split("."):
-        if not isinstance(found, dict | list):
-            return None
-        found = found[int(part)] if isinstance(found, list) else found.get(part)
-    return found
 
 
 def gear_set(version: str = "2.0", **of: dict[str, Given]) -> Unit:

@@ -12,7 +12,7 @@ from app.rexs.power import Train
 from app.rexs.reading import Reading
 from app.rexs.stages import pairs
 from app.rexs.unit import gear_unit
-from app.studies.fields import value_at
+from app.schema.fields import value_at
 from solvers.drive_train.inputs import FILM_ABOVE_OIL, JournalBearing, torsion_diameter
 from solvers.oils import OilSheet
 from tests.rexs.test_fields import LOAD, MEANINGS, MOST_BYTES, SCUFFING, TRAIN, answer, first, gear_set, stage_of

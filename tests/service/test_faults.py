@@ -66,14 +66,17 @@ def test_killed_workers_cost_only_their_own_requests() -> None:
         assert httpx.get(f"{address}/readyz", timeout=30).is_success
 
 
-def test_a_stop_of_the_whole_group_lets_calls_in_flight_end() -> None:
-    """systemd sends SIGTERM to every process of the service; the workers leave their end to the service."""
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+def test_a_stop_of_the_whole_group_lets_calls_in_flight_end(number: signal.Signals) -> None:
+    """systemd and Ctrl-C signal every process of the service; the workers leave their end to the service."""
     with faulty_server(workers=1) as (process, address), ThreadPoolExecutor() as clients:
         call = clients.submit(httpx.post, f"{address}/sleep/3", timeout=PATIENCE_S)
         wait_for_metric(address, RUNNING, 1)
-        os.killpg(process.pid, signal.SIGTERM)
+        children = descendants(process.pid)
+        os.killpg(process.pid, number)
         assert call.result().status_code == 200
         process.wait(PATIENCE_S)
+        wait_until_gone(children)
 
 
 def outcomes_while_killing(process: subprocess.Popen[str], address: str) -> Counter[str]:

@@ -10,7 +10,7 @@ import pytest
 from app.calculations import BY_PATH
 from app.evaluate import evaluate
 from app.examples import examples
-from app.studies.fields import value_at
+from app.schema.fields import value_at
 from app.studies.kinds.corners import Corners
 from app.studies.kinds.design import Design, next_place
 from app.studies.kinds.sweep import Sweep

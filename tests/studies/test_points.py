@@ -9,9 +9,8 @@ from app.calculations import BY_PATH
 from app.errors import Unprocessable
 from app.evaluate import json_answer
 from app.examples import examples
-from app.schema.fields import leaves
+from app.schema.fields import leaves, value_at
 from app.studies import points
-from app.studies.fields import value_at
 from app.studies.points import Question, sized_flow, solve_chunk, solve_point, with_overrides
 from tests.support.properties import one_per_endpoint
 from tests.support.requests import changed

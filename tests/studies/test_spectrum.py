@@ -11,7 +11,7 @@ from scipy.stats import norm
 from app.calculations import BY_PATH
 from app.evaluate import evaluate
 from app.examples import examples, study_bodies
-from app.studies.fields import value_at
+from app.schema.fields import value_at
 from app.studies.kinds.spectrum import Spectrum
 from app.studies.kinds.sweep import Sweep
 from app.studies.points import Point

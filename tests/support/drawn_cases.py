@@ -10,10 +10,10 @@ from app.calculations import Calculation
 from app.errors import InvalidBody, Unprocessable
 from app.evaluate import evaluate
 from app.examples import examples
-from app.schema.fields import Leaf, leaf_at, leaves
+from app.schema.fields import Leaf, leaf_at, leaves, value_at
 from app.schema.model import Documented
 from app.schema.reading import validated
-from app.studies.fields import is_number, set_value, value_at
+from app.studies.fields import is_number, set_value
 
 CHANGES = 4  # numbers of an example that are drawn anew
 REACH = 6.0  # times its value, or a part of it

@@ -86,21 +86,6 @@ class CouplingOperationRange(CouplingLoad):
     ]
 
 
-class MixedFrictionTable(Section, of=si.MixedFrictionTable):
-    """Measured coefficients of mixed friction, in the order of increasing sliding velocity.
-
-    Below the first velocity and above the last velocity, the coefficient is constant. A table with a single point means
-    a constant coefficient.
-    """
-
-
-class MixedFrictionCurve(Section, of=si.MixedFrictionCurve):
-    """A law of mixed friction. The law comes from this project and not from the paper.
-
-    With increasing sliding velocity, the coefficient first falls to its lowest value and then rises again.
-    """
-
-
 class CouplingFriction(Section, of=si.Friction):
     """Friction between the teeth."""
 

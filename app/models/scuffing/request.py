@@ -10,6 +10,7 @@ from app.models.line_contact.request import FilmModel
 from app.models.load_distribution.request import GearPairRequest, LoadDistributionModel, distribution_inputs
 from app.models.sections.cooling import GearCooling
 from app.models.sections.oil import Oil
+from app.schema.fields import value_at
 from app.schema.model import Request, Section
 from app.schema.quantities import Input
 from solvers.contact import ehl
@@ -19,14 +20,6 @@ from solvers.gears.pair import gear_pair
 from solvers.heat_balance import Cooling
 from solvers.scuffing import inputs as si
 from solvers.scuffing.thermal.bulk import balance_share, method_asked
-
-
-class ScuffingTest(Section, of=si.ScuffingTest):
-    """A scuffing test of the oil.
-
-    The only test that the service accepts is A/8.3/90. In other tests, the same load stage corresponds to a different
-    temperature.
-    """
 
 
 class ContactTemperatures(Section, of=si.Temperatures):
@@ -132,13 +125,6 @@ SMOOTH_FILM = (
 )
 
 
-def _is_given(sent: Any, path: str) -> bool:
-    """Return whether the body `sent` has a value other than null at a dotted path."""
-    for name in path.split("."):
-        sent = sent.get(name) if isinstance(sent, dict) else None
-    return sent is not None
-
-
 class MeshInOil(Request):
     """The parts that requests about scuffing have in common: a loaded pair, an oil, temperatures, a law of friction.
 
@@ -160,7 +146,7 @@ class MeshInOil(Request):
         for method, values in cls.methods.items() if isinstance(sent, dict) else ():
             section, name = method.split(".")
             held = sent.get(section, {})
-            if isinstance(held, dict) and any(_is_given(sent, path) for path in values):
+            if isinstance(held, dict) and any(value_at(sent, path) is not None for path in values):
                 sent = sent | {section: {**held, name: "given" if held.get(name) is None else held[name]}}
         return sent
 

@@ -11,8 +11,8 @@ from typing import Any, NamedTuple
 from app.calculations import Calculation
 from app.pages.typed import number_of, text_of
 from app.pages.typesetting import shown
-from app.schema.fields import Leaf, leaves, tree
-from app.studies.fields import NUMBERS, indexed, value_at
+from app.schema.fields import Leaf, leaves, tree, value_at
+from app.studies.fields import NUMBERS, indexed
 
 Options = tuple[tuple[str, str], ...]
 

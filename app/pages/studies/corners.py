@@ -12,8 +12,7 @@ from app.pages.studies.page import Link, Number, Result, Table
 from app.pages.studies.unit import UnitPage, load_figure
 from app.pages.study_kinds import CORNERS, DESIGN
 from app.pages.typesetting import shown
-from app.schema.fields import headlines
-from app.studies.fields import value_at
+from app.schema.fields import headlines, value_at
 from app.studies.kinds.corners import USUAL_RANGES, Corners
 from app.studies.points import COLD, needs_film
 from app.studies.requests import DRIVE_TRAIN, Overrides

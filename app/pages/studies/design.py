@@ -13,7 +13,7 @@ from app.pages.studies.page import OUTPUT, Controls, Link, Number, Result, Table
 from app.pages.studies.unit import UnitPage, load_figure
 from app.pages.study_kinds import CORNERS, DESIGN
 from app.pages.typesetting import shown
-from app.studies.fields import value_at
+from app.schema.fields import value_at
 from app.studies.kinds.design import Design
 from app.studies.requests import Overrides
 from app.studies.runner import Line

@@ -8,9 +8,9 @@ from app.errors import Unprocessable
 from app.pages.studies.page import titled
 from app.pages.typed import number_of, power_between, question, scaled, separator_of, text_of
 from app.pages.typesetting import words
-from app.schema.fields import ITEM, leaf_at, leaves
+from app.schema.fields import ITEM, leaf_at, leaves, value_at
 from app.schema.quantities import split_unit
-from app.studies.fields import NUMBERS, value_at
+from app.studies.fields import NUMBERS
 
 NAME, SHARE = "name", "share"
 AROUND_UNIT = " ,;[]()"  # characters that may stand before and after the unit in the heading of a column

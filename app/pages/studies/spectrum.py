@@ -25,8 +25,8 @@ from app.pages.study_links import Starter
 from app.pages.templating import page_path
 from app.pages.typed import as_typed
 from app.pages.typesetting import cited, shown
-from app.schema.fields import leaf_at
-from app.studies.fields import scalar_at, value_at
+from app.schema.fields import leaf_at, value_at
+from app.studies.fields import scalar_at
 from app.studies.kinds.spectrum import RELATIVE_DEVIATION, Spectrum
 from app.studies.points import SOLVED
 from app.studies.runner import Line

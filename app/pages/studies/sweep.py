@@ -22,8 +22,8 @@ from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Ta
 from app.pages.study_kinds import AXES, VARY
 from app.pages.study_links import Starter, StudyExample, studies_of, studies_of_case
 from app.pages.typesetting import shown, words
-from app.schema.fields import Leaf, leaf_at
-from app.studies.fields import scalar_at, value_at
+from app.schema.fields import Leaf, leaf_at, value_at
+from app.studies.fields import scalar_at
 from app.studies.kinds.sweep import Sweep
 from app.studies.point_sets import CheckedAxis
 from app.studies.points import SOLVED

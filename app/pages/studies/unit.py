@@ -13,7 +13,7 @@ from app.pages.studies.page import Controls, Number, StudyPage, Table, titled
 from app.pages.study_kinds import control_of
 from app.pages.typed import number_of, text_of
 from app.pages.typesetting import shown
-from app.studies.fields import value_at
+from app.schema.fields import value_at
 from app.studies.point_sets import usual_corners
 from app.studies.points import BaseRequest
 from app.studies.requests import Axis, Overrides

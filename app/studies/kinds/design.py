@@ -10,10 +10,10 @@ from pydantic import Field
 from scipy.optimize import NonlinearConstraint, minimize
 
 from app.errors import Unprocessable
-from app.schema.fields import Leaf
+from app.schema.fields import Leaf, value_at
 from app.schema.quantities import Input
 from app.studies import runner
-from app.studies.fields import NUMBERS, check_value, not_a_number, value_at
+from app.studies.fields import NUMBERS, check_value, not_a_number
 from app.studies.point_sets import common_unit, grid, listed
 from app.studies.points import BaseRequest, check_count, check_distinct
 from app.studies.requests import (

@@ -18,10 +18,10 @@ from typing import Annotated, Any
 from pydantic import Field
 
 from app.errors import Unprocessable
-from app.schema.fields import ITEM, Leaf, leaves
+from app.schema.fields import ITEM, Leaf, leaves, value_at
 from app.schema.quantities import Input
 from app.studies import runner
-from app.studies.fields import NUMBERS, fault, indexed, not_a_number, scalar_at, value_at
+from app.studies.fields import NUMBERS, fault, indexed, not_a_number, scalar_at
 from app.studies.points import BaseRequest, Point, check_count, check_distinct
 from app.studies.requests import FieldPath, Overrides, StudyRequest
 from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header
