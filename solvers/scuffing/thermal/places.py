@@ -18,7 +18,6 @@ from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety_results import ThermalPath
 from solvers.scuffing.thermal.blok import blok_flash
 from solvers.scuffing.thermal.flank import (
-    ZOOM_FRACTIONS,
     ContactFunction,
     FaceFunction,
     FlankFunction,
@@ -35,7 +34,10 @@ MOST_PEAKS = 3  # peaks of a formula at which the film is solved
 STEP = 0.04  # of the path: distance to the first neighbours of a peak, chosen; loads and speeds change little over it
 MOVES = 0.003  # share by which the extreme may still move when the refinement ends
 MOST_STEPS = 12  # steps uphill from a peak of a formula, and as many refinements at the top; chosen, rarely more than 3
-ZOOMS = 7  # refinements of the face position of the largest load; each makes the spacing 4 times smaller
+# Refinements of the face position of the largest load, and their places in spacings of the places before. The load may
+# have a kink there, so that its error is as large as that of the place; the last places are 1e-9 of the face apart.
+ZOOMS = 6
+ZOOM = np.linspace(-1.0, 1.0, 33)
 
 SurfaceFunction = Callable[[FloatArray], FloatArray]
 """A function that returns the bulk temperatures of pinion and wheel (2, n) [K] at distances y [m] along the face."""
@@ -88,10 +90,10 @@ def solve_places(
     if hottest is not None:
         on_grid = flash.flash if rise is None else flash.flash + rise(flash.y)
         peaks = _peaks(flash, on_grid, temperature, hottest, pitch)
-        search.follow([peak.x for peak in peaks], _across(flash.y, peaks, temperature), search.warmth)
+        search.follow(peaks, flash.y, temperature, search.warmth)
     thin = Peak(1.0 / thinnest.value, thinnest.x, thinnest.y)
     peaks = _peaks(flash, thinness_map(flash, film_at), reciprocal_film, thin, pitch)
-    search.follow([peak.x for peak in peaks], _across(flash.y, peaks, reciprocal_film), _reciprocal_film)
+    search.follow(peaks, flash.y, reciprocal_film, _reciprocal_film)
     return search.places()
 
 
@@ -103,18 +105,26 @@ class _Search:
         self._solved: dict[tuple[float, float], SolvedLine] = {}
 
     def follow(
-        self, starts: Sequence[float], across: Callable[[float], float], value: Callable[[ThermalPath, float], float]
+        self,
+        peaks: Sequence[Peak],
+        face: FloatArray,
+        formula: FlankFunction,
+        value: Callable[[ThermalPath, float], float],
     ) -> None:
-        """Solve contacts from every start uphill to the next peak of `value`, at the worst face position of each x."""
+        """Solve contacts from every peak of a formula uphill to the next peak of `value`.
+
+        At each x, the contact is the one at the worst face position by the formula.
+        """
         length = self._distribution.path_of_contact.plane.path_length
+        across = largest_over_face(face, [peak.y for peak in peaks], formula)
 
         @cache
         def at(x: float) -> float:
             y = across(x)
             return value(self._solution(x, y).path, y)
 
-        for start in starts:
-            _climb(at, start, length)
+        for peak in peaks:
+            _climb(at, peak.x, length)
 
     def warmth(self, path: ThermalPath, y: float) -> float:
         """Return how much the hotter surface is hotter than the mean bulk temperature of its gear [K]."""
@@ -168,23 +178,23 @@ def _peaks(grid: FlashMap, values: FloatArray, function: FlankFunction, largest:
     return chosen + [peak for peak in apart if peak not in chosen][: MOST_PEAKS - len(chosen)]
 
 
-def _across(face: FloatArray, peaks: Sequence[Peak], function: FlankFunction) -> Callable[[float], float]:
+def largest_over_face(face: FloatArray, tried: Sequence[float], function: FlankFunction) -> Callable[[float], float]:
     """Return a function of x that finds the face position [m] with the largest value of `function`.
 
-    The positions `face` are searched and refined; the positions of the `peaks` are tried too.
+    The positions `face` and `tried` are searched. Around the best of them the search is refined.
     """
 
-    def worst(x: float) -> float:
-        y = np.unique([*face, *(peak.y for peak in peaks)])
-        for zoom in range(ZOOMS + 1):
-            top = int(np.argmax(function(np.full(y.size, x), y)))
-            if zoom == ZOOMS:
-                break
-            low, high = y[max(top - 1, 0)], y[min(top + 1, y.size - 1)]
-            y = np.unique([*(low + (high - low) * ZOOM_FRACTIONS), y[top]])
-        return float(y[top])
+    def position(x: float) -> float:
+        def best(y: FloatArray) -> float:
+            return float(y[np.argmax(function(np.full(y.size, x), y))])
 
-    return worst
+        top, spacing = best(np.array([*face, *tried])), float(np.diff(face).max())
+        for _ in range(ZOOMS):
+            top = best(np.clip(top + spacing * ZOOM, 0.0, face[-1]))
+            spacing *= ZOOM[1] - ZOOM[0]
+        return top
+
+    return position
 
 
 def _climb(value: Callable[[float], float], start: float, length: float) -> None:

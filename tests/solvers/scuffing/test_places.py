@@ -13,15 +13,13 @@ from solvers.errors import InvalidInput
 from solvers.scuffing.inputs import Load, MicropittingCheck, ScuffingInputs
 from solvers.scuffing.safety import solve_scuffing
 from solvers.scuffing.safety_results import Scuffing
+from solvers.scuffing.thermal.places import largest_over_face
 from tests.solvers.scuffing.test_symmetries import mirrored
 from tests.support.answers import differences, leaves
 from tests.support.modified_pairs import random_pair
 from tests.support.properties import seeds
 
 EXACT = 1e-6
-# The hottest place may lie on a ridge of the load that is flat along its length; it is known there to 1e-5 of the face,
-# and the curves along the profile line through it change by as much. Its own numbers do not.
-LOOSE = {"^hottest_path": 1e-5}
 PARTS = r"^(?!(flash|contact_temperature|film|safety|hottest_path|micropitting|wear)\.)"
 # The paper's feature line is a diagonal; its mirror image is the other one.
 DIAGONAL = r"_at_psi$|feature_line|^micropitting\.local\.points"
@@ -68,20 +66,11 @@ def test_a_spur_pair_and_its_mirror_image(random: np.random.Generator) -> None:
         return values[:, ::-1] if values.ndim == 2 else values
 
     without = f"{PARTS}|{DIAGONAL}|{PLACE}"
-    assert not differences(one, other, turned, tolerance=EXACT, loose=LOOSE, without=without)
+    assert not differences(one, other, turned, tolerance=EXACT, without=without)
 
 
 @seeds(15, 300)
 def test_a_pair_whose_wheel_drives(random: np.random.Generator) -> None:
-    assert_exchange_is_harmless(random, LOOSE)
-
-
-def test_the_profile_line_has_no_hand_where_the_load_is_flat_over_the_face() -> None:
-    """A crowned pair has its largest load in the flat middle of the face; the line through it was a step off."""
-    assert_exchange_is_harmless(np.random.default_rng([38, 58]), {})
-
-
-def assert_exchange_is_harmless(random: np.random.Generator, loose: dict[str, float]) -> None:
     inputs = pair(random)
     one, other = solve_scuffing(inputs), solve_scuffing(exchanged(inputs))
     before = leaves(one)
@@ -97,13 +86,25 @@ def assert_exchange_is_harmless(random: np.random.Generator, loose: dict[str, fl
 
     points = r"^micropitting\.(local|standard)\.points|^micropitting\.test\.|^hottest_path.status"
     without = f"{PARTS}|{PLACE}|{points}"
-    assert not differences(one, other, expected, tolerance=EXACT, loose=loose, without=without)
+    assert not differences(one, other, expected, tolerance=EXACT, without=without)
     if one.hottest_path is not None and other.hottest_path is not None:
         assert one.hottest_path.status == other.hottest_path.status[::-1]
     ratios = [{each.point: each.ratio for each in found.micropitting.local.points} for found in (one, other)]
     image = {"A": "E", "AB": "DE", "B": "D", "C": "C", "D": "B", "DE": "AB", "E": "A"}
     for point, ratio in ratios[0].items():
         assert ratios[1][image[point]] == (None if ratio is None else pytest.approx(ratio, rel=EXACT)), point
+
+
+def test_the_worst_place_over_the_face_is_found_where_the_load_has_a_kink() -> None:
+    """A place found before, equal to one of the refinement but for rounding, ended the search 2e-5 of the face away."""
+    face = np.linspace(0.0, 1.0, 101)
+    for kink in np.random.default_rng(56).uniform(size=100).tolist():
+
+        def load(_: FloatArray, y: FloatArray, kink: float = kink) -> FloatArray:
+            return 1.0 - np.where(y > kink, 1.0, 0.1) * np.abs(y - kink)
+
+        found_before = int(kink * 51200) / 51200
+        assert largest_over_face(face, [found_before], load)(0.0) == pytest.approx(kink, abs=1e-9), kink
 
 
 SWEPT = ("helix_slope", "lead_crowning", "torque")
