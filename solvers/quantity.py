@@ -138,6 +138,8 @@ class Quantity:
         meaning.
     gaps : bool
         Whether NaN in an array marks a point without a value.
+    left_out : bool
+        Whether an answer leaves the field out where it is None, because few cases have it.
     equation : str, optional
         Place in the manual that says how the value is computed: the number of an equation, such as "D15", or a
         section of a chapter, such as "drive-train#shafts". By default, that of the dataclass.
@@ -166,6 +168,7 @@ class Quantity:
     axis: str | tuple[str, str] | None = None
     index: str | None = None
     gaps: bool = False
+    left_out: bool = False
     equation: str | None = None
 
     @property

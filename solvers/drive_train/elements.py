@@ -11,7 +11,7 @@ from solvers.drive_train.results import BearingResult, CouplingResult, ShaftCurv
 from solvers.drive_train.shafts.bearings import BearingState
 from solvers.drive_train.shafts.coupling_loads import LEAST_TILT, LOADS, TILTS, HubMoments, hub_moments, hub_warnings
 from solvers.drive_train.shafts.influence import ShaftPorts, Unit
-from solvers.drive_train.shafts.thrust_budget import mesh_thrust, thrust_budget
+from solvers.drive_train.shafts.thrust_budget import mesh_thrust, split_thrust_budget, thrust_budget
 from solvers.gears.pair import PathOfContact
 from solvers.notices import Notice
 
@@ -51,7 +51,7 @@ def coupling_results(
     results = []
     for k, (port, pair) in enumerate(zip(unit.couplings, hubs, strict=True)):
         tilts = equilibrium.hubs.tilts[TILTS * k : TILTS * (k + 1)]
-        *force, turned_x, turned_y, thrust = map(float, equilibrium.loads[unit.stations.size + LOADS * k :][:LOADS])
+        *force, turned_x, turned_y, thrust = map(float, equilibrium.loads[unit.count + LOADS * k :][:LOADS])
         sizes = (hypot(tilts[0], tilts[1]), hypot(tilts[2], tilts[3]))
         results.append(
             CouplingResult(
@@ -83,9 +83,11 @@ def shaft_results(
     ]
     acting = [sum(coupling.thrust for coupling in own) for own in couplings_of_shafts]
     limits = [sum(coupling.thrust_limit for coupling in own) for own in couplings_of_shafts]
-    mesh = mesh_thrust(inputs, path, unit.frame)
-    diameters = (_hub_diameter(inputs, 0), _hub_diameter(inputs, 1))
-    thrusts = thrust_budget(inputs, mesh, (acting[0], acting[1]), (limits[0], limits[1]), diameters)
+    forces = (acting[0], acting[1]), (limits[0], limits[1]), (_hub_diameter(inputs, 0), _hub_diameter(inputs, 1))
+    if unit.split is None:
+        thrusts = thrust_budget(inputs, mesh_thrust(inputs, path, unit.frame), *forces)
+    else:
+        thrusts = split_thrust_budget(inputs, unit.split, unit.split.force(equilibrium.hubs.loads), *forces)
     states = unit.bearings(equilibrium.loads)
     shafts = []
     for i, side in enumerate(unit.shafts):

@@ -22,6 +22,7 @@ Vector2 = tuple[float, float]
 CouplingFriction = Literal["elastic_plastic", "sliding"]
 BearingFilm = Literal["finite", "short"]
 ShaftName = Literal["pinion", "wheel"]
+NAMES_OF_SHAFTS: tuple[ShaftName, ShaftName] = ("pinion", "wheel")
 State = Literal["hot", "cold"]
 ASSUMED_RESPONSE = 0.5  # chosen within the range of published values, 0.2 to 1
 USUAL_TEETH = (90.0 + 273.15, 80.0 + 273.15)  # K, tooth temperatures of pinion and wheel where none is known
@@ -505,6 +506,14 @@ class Effects:
     thermal: bool = quantity("heat", default=True, text="whether heat deforms the flanks")
 
 
+def floating_shaft(inputs: "DriveTrainInputs") -> ShaftName:
+    """Shaft of a double-helical unit that floats, given or that of the gear with fewer teeth."""
+    if inputs.floating_shaft is not None:
+        return inputs.floating_shaft
+    gears = inputs.mesh.distribution.gears
+    return "pinion" if gears.pinion.teeth <= gears.wheel.teeth else "wheel"
+
+
 @record
 class DriveTrainInputs:
     """Inputs of a gear unit: mesh, pumping of gas by the teeth, shafts, couplings, and heat.
@@ -531,6 +540,13 @@ class DriveTrainInputs:
     arrangement: Arrangement = field(default_factory=Arrangement)
     couplings: tuple[UnitCoupling, ...] = quantity(
         "couplings", default=(), length=(0, 10), text="at most one on each shaft"
+    )
+    floating_shaft: ShaftName | None = quantity(
+        "shaft that floats",
+        kw_only=True,
+        default=None,
+        text="of double-helical gears: held along Z by the mesh alone; the other one has the thrust bearing",
+        default_text="that of the gear with fewer teeth",
     )
     collar_radius: float | None = quantity(
         "radius of the thrust collar",

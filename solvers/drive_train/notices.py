@@ -9,13 +9,16 @@ from solvers.drive_train.checks import NAMES
 from solvers.drive_train.film.law import WIDEST
 from solvers.drive_train.inputs import BearingFilm, DriveTrainInputs, JournalBearing
 from solvers.drive_train.results import (
+    AxialBalance,
     CouplingResult,
     DriveTrainResult,
     FaceLoad,
     ShaftResult,
     TrainLosses,
 )
+from solvers.gears.inputs import GearPairInputs
 from solvers.gears.notices import tooth_load, tooth_temperature, unusual_gears
+from solvers.heat_balance import Heat
 from solvers.lubricants import hot_oil, oil_temperature, thick_oil
 from solvers.notices import Notice
 from solvers.pumping.notices import thin_air
@@ -25,6 +28,8 @@ SHORT_BEARING = 0.7  # ratio of width to diameter above which the theory of shor
 ROUNDING = 1e-9  # relative rounding error of lengths that were converted from other units
 THIN_FILM = 15e-6  # m; thinner films give a warning
 LARGE_ECCENTRICITY = 0.9  # customary design limit, at which the thinnest film is a tenth of the clearance
+UNEQUAL = 1.1  # chosen: larger share over half the load above which unequal helices are worth a warning
+NARROW = 3.0  # chosen: normal modules; through a gap of 1.6 to 3 modules the gas of both helices escapes
 LIFTED = 0.9  # contact fraction below which flanks count as lifted off
 
 
@@ -107,6 +112,60 @@ def load_notices(inputs: DriveTrainInputs, load: FaceLoad) -> Iterator[Notice]:
         yield Notice("wall_response_assumed", message, "heat.wall_response", rank="note")
 
 
+def helix_notices(inputs: DriveTrainInputs, axial: AxialBalance, heat: Heat | None) -> Iterator[Notice]:
+    """Warn of unequal helices and of what can unload one, of double-helical gears."""
+    gears, load = inputs.mesh.distribution.gears, inputs.mesh.distribution.load
+    if {0.0, 1.0} & {share for shares in axial.share_bounds for share in shares}:
+        message = (
+            "the couplings' friction at its limit can lift one helix off, which takes "
+            f"{axial.unloading_force / 1e3:.4g} kN along the floating shaft; lower the friction or let the other shaft float"
+        )
+        yield Notice("helix_may_unload", message, "floating_shaft")
+    if axial.share_factor > UNEQUAL:
+        message = (
+            f"one helix carries {50 * axial.share_factor:.0f} % of the load, because {axial.force / 1e3:.4g} kN act "
+            "along the floating shaft"
+        )
+        yield Notice("unequal_shares", message, "floating_shaft")
+        if heat is None:
+            message = (
+                "the helices carry unequal loads and do not have the one bulk temperature that is given: the hotter "
+                "one is less safe than computed"
+            )
+            yield Notice("helices_warm_unequally", message, "mesh.temperatures.bulk")
+        if load.mesh_load_factor != 1.0:
+            message = (
+                f"K_γ {load.mesh_load_factor:.3g} is given, and the model computes unequal shares as well; give K_γ 1 "
+                "unless it stands for something else"
+            )
+            yield Notice("counted_twice", message, "mesh.distribution.load.mesh_load_factor")
+    if heat is not None:
+        message = (
+            "each helix has the flank temperatures of a balance in which both carry its load; in truth heat flows "
+            "through the gap, and the temperatures lie closer together"
+        )
+        yield Notice("helices_warm_apart", message, "cooling", rank="note")
+    if (gears.gap_width or 0.0) < NARROW * gears.normal_module and inputs.effects.thermal:
+        message = (
+            f"the gap between the helices is narrower than {NARROW:.0f} modules: the gas that both helices pump may "
+            "not escape there, and both are hotter than computed"
+        )
+        yield Notice("narrow_gap", message, "gears.gap_width")
+    fast = "pinion" if gears.pinion.teeth <= gears.wheel.teeth else "wheel"
+    if axial.floating_shaft != fast and inputs.acting_couplings:
+        message = (
+            f"the slow shaft floats; a coupling on it shifts {gears_ratio(gears):.3g} times the load from helix to "
+            "helix that one on the fast shaft would at the same hub diameter"
+        )
+        yield Notice("slow_shaft_floats", message, "floating_shaft", rank="note")
+
+
+def gears_ratio(gears: GearPairInputs) -> float:
+    """Ratio of the numbers of teeth, at least 1 [-]."""
+    teeth = gears.pinion.teeth, gears.wheel.teeth
+    return max(teeth) / min(teeth)
+
+
 def loss_notices(inputs: DriveTrainInputs, losses: TrainLosses) -> Iterator[Notice]:
     """Warn if the losses exceed the power."""
     power = inputs.mesh.distribution.load.transmitted_power
@@ -161,4 +220,5 @@ def unusual_values(inputs: DriveTrainInputs, result: DriveTrainResult) -> Iterat
     yield from unusual_gears(mesh.gears, mesh.load.pinion_speed)
     yield from unusual_modifications(mesh.modifications)
     yield from high_pressure(load.max_pressure)
-    yield from tooth_load(mesh.gears, mesh.load.torque, load.max_line_load)
+    share = max((helix.share for helix in result.helices), default=1.0) if result.helices else 1.0
+    yield from tooth_load(mesh.gears, share * mesh.load.torque, load.max_line_load)
