@@ -118,7 +118,8 @@ def helix_notices(inputs: DriveTrainInputs, axial: AxialBalance, heat: Heat | No
     if {0.0, 1.0} & {share for shares in axial.share_bounds for share in shares}:
         message = (
             "the couplings' friction at its limit can lift one helix off, which takes "
-            f"{axial.unloading_force / 1e3:.4g} kN along the floating shaft; lower the friction or let the other shaft float"
+            f"{axial.unloading_force / 1e3:.4g} kN along the floating shaft; lower the friction or let the other shaft "
+            "float"
         )
         yield Notice("helix_may_unload", message, "floating_shaft")
     if axial.share_factor > UNEQUAL:
