@@ -110,6 +110,7 @@ class Quantity:
     axis                      field that is the abscissa of a curve, or both of a map; dotted from the whole result
     index                     meaning of the positions of a list ("X, Y"), if no other field states it
     gaps                      whether NaN in an array marks a point without a value
+    left_out                  whether answers leave it out where it is None, because few cases have it
     equation                  place in the manual that says how it is computed: "D15", or "drive-train#shafts"; by
                               default that of the dataclass
     """
@@ -137,6 +138,7 @@ class Quantity:
     axis: str | tuple[str, str] | None = None
     index: str | None = None
     gaps: bool = False
+    left_out: bool = False
     equation: str | None = None
 
     @property

@@ -37,7 +37,7 @@ class Group(Documented):
         unit, axis = declared.unit or getattr(kind, "member_unit", None), declared.axis
         axis = tuple(names.get(item, item) for item in axis) if isinstance(axis, tuple) else names.get(axis, axis)
         meaning = Output.of(record, name, unit=unit, axis=axis, **vars(cls.views.get(name, View())))
-        optional = cls._optional or declared.detail != "summary"
+        optional = cls._optional or declared.left_out or declared.detail != "summary"
         return Annotated[kind | None if optional or nullable else kind, meaning], None if optional else ...
 
 
@@ -171,7 +171,9 @@ def shown(kind: type[Documented], result: Any, detail: Detail) -> dict[str, Any]
     record: Any = type(result)
     for member, holder in _sources(kind, record, detail):
         part = getattr(result, holder) if holder else result
-        content[member.name] = None if part is None else _displayed(getattr(part, member.solver_name), member, detail)
+        value = None if part is None else _displayed(getattr(part, member.solver_name), member, detail)
+        if value is not None or not member.meaning.left_out:
+            content[member.name] = value
     return content
 
 

@@ -28,7 +28,8 @@ def check_inputs(inputs: DriveTrainInputs, path: PathOfContact) -> None:
     InvalidInput
         If a part does not fit. The code names the reason: `bearing_count`, `bearing_outside`, `bearing_order`,
         `bearing_distance`, `face_outside`, `torque_position`, `position_outside`, `section_diameter`,
-        `stiffness_matrix`, `thrust_collar_radius`, `machine_side` or `couplings_on_shaft`.
+        `stiffness_matrix`, `thrust_collar_radius`, `thrust_collar_double_helical`, `machine_side` or
+        `couplings_on_shaft`.
     """
     if inputs.heat.states_teeth and not inputs.heat.states_both_teeth:
         missing = "wheel_bulk" if inputs.heat.wheel_bulk is None else "pinion_bulk"
@@ -47,9 +48,16 @@ def check_inputs(inputs: DriveTrainInputs, path: PathOfContact) -> None:
 
 def _check_sections(inputs: DriveTrainInputs, path: PathOfContact, index: int, name: str) -> None:
     shaft, tip = inputs.shafts[index], 2 * (path.pair.pinion, path.pair.wheel)[index].tip_radius
-    start, end = inputs.face_start, inputs.face_start + path.plane.face_width
+    start, end = _faces(inputs)
     if start < shaft.start - COINCIDENT or end > shaft.end + COINCIDENT:
-        raise InvalidInput("face_outside", "the face of the gear lies outside the sections of the shaft", "face_start")
+        message = "the face of the gear lies outside the sections of the shaft"
+        gears = inputs.mesh.distribution.gears
+        if gears.gap_width is not None:
+            message += (
+                f"; two helices of {gears.face_width * 1e3:g} mm and the gap of {gears.gap_width * 1e3:g} mm need "
+                f"{gears.total_width * 1e3:g} mm of shaft"
+            )
+        raise InvalidInput("face_outside", message, "face_start")
     position = shaft.start
     for k, section in enumerate(shaft.sections):
         field = f"{name}.sections.{k}"
@@ -64,6 +72,11 @@ def _check_sections(inputs: DriveTrainInputs, path: PathOfContact, index: int, n
             )
             raise InvalidInput("section_diameter", message, f"{field}.outer_diameter")
         position += section.length
+
+
+def _faces(inputs: DriveTrainInputs) -> tuple[float, float]:
+    """Return Z of both ends of the face; of double-helical gears, of both helices with the gap [m]."""
+    return inputs.face_start, inputs.face_start + inputs.mesh.distribution.gears.total_width
 
 
 def check_bearing_count(shaft: Shaft, name: str) -> None:
@@ -90,7 +103,7 @@ def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
         raise InvalidInput(
             "bearing_order", "the two bearings of a shaft need different positions", f"{name}.bearings.1.position"
         )
-    if distance < LEAST_BEARING_DISTANCE * inputs.mesh.distribution.gears.face_width:
+    if distance < LEAST_BEARING_DISTANCE * inputs.mesh.distribution.gears.total_width:
         message = "the distance between the bearings must be at least half the face width"
         raise InvalidInput("bearing_distance", message, f"{name}.bearings.1.position")
 
@@ -117,13 +130,13 @@ def _check_torque(inputs: DriveTrainInputs, index: int, name: str) -> None:
         position = hubs[0]
     if not _is_on(shaft, position):
         raise InvalidInput("torque_position", "the torque must enter the shaft at a position within the shaft", field)
-    end = inputs.face_start + inputs.mesh.distribution.gears.face_width
-    if inputs.face_start + COINCIDENT < position < end - COINCIDENT:
+    start, end = _faces(inputs)
+    if start + COINCIDENT < position < end - COINCIDENT:
         raise InvalidInput("torque_position", "the torque must enter the shaft outside the face of the gear", field)
 
 
 def _check_couplings(inputs: DriveTrainInputs) -> None:
-    middle = inputs.face_start + inputs.mesh.distribution.gears.face_width / 2
+    middle = sum(_faces(inputs)) / 2
     names = [coupling.shaft for coupling in inputs.couplings]
     for k, coupling in enumerate(inputs.couplings):
         field = f"couplings.{k}"
@@ -144,6 +157,9 @@ def _check_couplings(inputs: DriveTrainInputs) -> None:
 def _check_collar(inputs: DriveTrainInputs, path: PathOfContact) -> None:
     if inputs.collar_radius is None:
         return
+    if inputs.mesh.distribution.gears.helices > 1:
+        message = "double-helical gears hold each other along Z; leave the thrust collar out"
+        raise InvalidInput("thrust_collar_double_helical", message, "collar_radius")
     low = path.pair.pinion_working_radius
     high = low + COLLAR_BEYOND_TEETH * path.pair.inputs.normal_module
     if not low < inputs.collar_radius < high:

@@ -100,6 +100,14 @@ class Derived:
     lubricant: OilInUse | None = quantity("oil used", text="of the gears, as it enters the contact; null with none")
     temperatures: DerivedTemperatures = quantity("temperatures used")
     cooling: CoolingInForce | None = quantity("cooling used", default=None, text="null without a heat balance")
+    total_face_width: float | None = quantity(
+        "total face width used",
+        "2b + e",
+        unit="mm",
+        text="both helices and the gap; left out without two helices",
+        default=None,
+        left_out=True,
+    )
 
 
 def derived(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: BulkInForce, heat: Heat | None = None) -> Derived:
@@ -137,6 +145,7 @@ def derived(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: BulkInForce,
             inputs.mesh.temperatures.lubricant_factor,
         ),
         cooling=None if heat is None else cooling_in_force(inputs.mesh.cooling, heat),
+        total_face_width=lengths.total_face_width,
     )
 
 

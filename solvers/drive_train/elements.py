@@ -9,9 +9,17 @@ from solvers.drive_train.gap.balance import Equilibrium
 from solvers.drive_train.inputs import DriveTrainInputs, Vector2
 from solvers.drive_train.results import BearingResult, CouplingResult, ShaftCurves, ShaftResult
 from solvers.drive_train.shafts.bearings import BearingState
-from solvers.drive_train.shafts.coupling_loads import LEAST_TILT, LOADS, TILTS, HubMoments, hub_moments, hub_warnings
+from solvers.drive_train.shafts.coupling_loads import (
+    LEAST_TILT,
+    LOADS,
+    TILTS,
+    HubMoments,
+    held_thrust,
+    hub_moments,
+    hub_warnings,
+)
 from solvers.drive_train.shafts.influence import ShaftPorts, Unit
-from solvers.drive_train.shafts.thrust_budget import mesh_thrust, thrust_budget
+from solvers.drive_train.shafts.thrust_budget import mesh_thrust, split_thrust_budget, thrust_budget
 from solvers.gears.pair import PathOfContact
 from solvers.notices import Notice
 
@@ -48,8 +56,11 @@ def coupling_results(
     results = []
     for k, (port, pair) in enumerate(zip(unit.couplings, hubs, strict=True)):
         tilts = equilibrium.hubs.tilts[TILTS * k : TILTS * (k + 1)]
-        *force, turned_x, turned_y, thrust = map(float, equilibrium.loads[unit.stations.size + LOADS * k :][:LOADS])
+        *force, turned_x, turned_y, thrust = map(float, equilibrium.loads[unit.count + LOADS * k :][:LOADS])
         sizes = (hypot(tilts[0], tilts[1]), hypot(tilts[2], tilts[3]))
+        held = None
+        if unit.split is not None:
+            held = min(held_thrust(port, hub.friction_coefficient, size) for hub, size in zip(pair, sizes, strict=True))
         results.append(
             CouplingResult(
                 tilt=sizes,
@@ -61,6 +72,7 @@ def coupling_results(
                 thrust=thrust,
                 thrust_limit=min(hub.thrust_limit for hub in pair),
                 friction_power=sum(hub.loss * port.speed * size for hub, size in zip(pair, sizes, strict=True)),
+                held_thrust_fraction=held,
             )
         )
     return tuple(results)
@@ -80,9 +92,11 @@ def shaft_results(
     ]
     acting = [sum(coupling.thrust for coupling in own) for own in couplings_of_shafts]
     limits = [sum(coupling.thrust_limit for coupling in own) for own in couplings_of_shafts]
-    mesh = mesh_thrust(inputs, path, unit.frame)
-    diameters = (_hub_diameter(inputs, 0), _hub_diameter(inputs, 1))
-    thrusts = thrust_budget(inputs, mesh, (acting[0], acting[1]), (limits[0], limits[1]), diameters)
+    forces = (acting[0], acting[1]), (limits[0], limits[1]), (_hub_diameter(inputs, 0), _hub_diameter(inputs, 1))
+    if unit.split is None:
+        thrusts = thrust_budget(inputs, mesh_thrust(inputs, path, unit.frame), *forces)
+    else:
+        thrusts = split_thrust_budget(inputs, unit.split, unit.split.force(equilibrium.hubs.loads), *forces)
     states = unit.bearings(equilibrium.loads)
     shafts = []
     for i, side in enumerate(unit.shafts):

@@ -22,6 +22,7 @@ Vector2 = tuple[float, float]
 CouplingFriction = Literal["elastic_plastic", "sliding"]
 BearingFilm = Literal["finite", "short"]
 ShaftName = Literal["pinion", "wheel"]
+NAMES_OF_SHAFTS: tuple[ShaftName, ShaftName] = ("pinion", "wheel")
 State = Literal["hot", "cold"]
 ASSUMED_RESPONSE = 0.5  # chosen within the range of published values, 0.2 to 1
 USUAL_TEETH = (90.0 + 273.15, 80.0 + 273.15)  # K, tooth temperatures of pinion and wheel where none is known
@@ -336,6 +337,18 @@ class Arrangement:
     hand: Literal["right", "left"] = quantity(
         "hand of the pinion's helix", default="right", text="without meaning for spur gears"
     )
+    apex_runout: float | None = quantity(
+        "axial runout of the apex",
+        "e_A",
+        unit="um",
+        kw_only=True,
+        default=None,
+        ge=0,
+        le=1000,
+        tolerance=2,
+        text="of double-helical gears, amplitude over a turn of the pinion; makes the coupling slide to and fro",
+        default_text="what it makes of the coupling's thrust is not told",
+    )
     rotation: Literal["counterclockwise", "clockwise"] = quantity(
         "rotation of the pinion", default="counterclockwise", text="rotation of the pinion, seen from +Z"
     )
@@ -469,6 +482,14 @@ class Effects:
     thermal: bool = quantity("heat", default=True, text="whether heat deforms the flanks")
 
 
+def floating_shaft(inputs: "DriveTrainInputs") -> ShaftName:
+    """Shaft of a double-helical unit that floats, given or that of the gear with fewer teeth."""
+    if inputs.floating_shaft is not None:
+        return inputs.floating_shaft
+    gears = inputs.mesh.distribution.gears
+    return "pinion" if gears.pinion.teeth <= gears.wheel.teeth else "wheel"
+
+
 @record
 class DriveTrainInputs:
     """Inputs of a gear unit: mesh, pumping of gas by the teeth, shafts, couplings, and heat.
@@ -495,6 +516,13 @@ class DriveTrainInputs:
     arrangement: Arrangement = field(default_factory=Arrangement)
     couplings: tuple[UnitCoupling, ...] = quantity(
         "couplings", default=(), length=(0, 10), text="at most one on each shaft"
+    )
+    floating_shaft: ShaftName | None = quantity(
+        "shaft that floats",
+        kw_only=True,
+        default=None,
+        text="of double-helical gears: held along Z by the mesh alone; the other one has the thrust bearing",
+        default_text="that of the gear with fewer teeth",
     )
     collar_radius: float | None = quantity(
         "radius of the thrust collar",

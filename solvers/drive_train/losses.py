@@ -20,10 +20,10 @@ def train_losses(
 ) -> TrainLosses:
     """Return the losses of all parts of the unit [W].
 
-    `mesh` [W] is the loss that the model of the mesh computes; `pumping` [W] is the loss that the pumping model
-    computes. If `heat` is given, the mesh loss in `heat` replaces `mesh`. The total then also contains the losses in
-    `heat` by acceleration of the oil, by windage and by other causes. If the loss of the mesh is not known, the total
-    is None. If the total is not smaller than the power, the efficiency is None.
+    `mesh` [W] is the loss that the model of the mesh computes, of all helices; `pumping` [W] is the loss that the
+    pumping model computes. If `heat` is given, the mesh loss in `heat` replaces `mesh`. The total then also contains
+    the losses in `heat` by acceleration of the oil, by windage and by other causes. If the loss of the mesh is not
+    known, the total is None. If the total is not smaller than the power, the efficiency is None.
     """
     bearings = sum(bearing.friction_power for shaft in shafts for bearing in shaft.bearings)
     coupling = sum(result.friction_power for result in couplings)

@@ -1,27 +1,20 @@
 """Results of a drive train whose couplings, shafts, bearings and mesh are in balance."""
 
-from dataclasses import replace
 from functools import partial
 
-import numpy as np
-
-from solvers.arrays import FloatArray, frozen
+from solvers.arrays import FloatArray
 from solvers.drive_train.derived import derived
 from solvers.drive_train.elements import coupling_results, hubs_of, shaft_results, warnings_of
-from solvers.drive_train.gap.misalignment import misalignment
 from solvers.drive_train.gap.thermal_lead import gas_heat
+from solvers.drive_train.helices import axial_balance, decisive, loaded_face
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.losses import force_balance, train_losses
-from solvers.drive_train.notices import coupling_notices, load_notices, loss_notices, shaft_notices
+from solvers.drive_train.notices import coupling_notices, helix_notices, load_notices, loss_notices, shaft_notices
 from solvers.drive_train.prepared import prepare, settle
-from solvers.drive_train.results import Convergence, DriveTrainResult, FaceLoad
-from solvers.drive_train.safety import contact_of, flank_heat
+from solvers.drive_train.results import Convergence, DriveTrainResult
 from solvers.drive_train.unit_heat import asks_for_balance, warm_unit, with_safety_band
 from solvers.heat_balance import over_the_flow
-from solvers.scuffing.micropitting.wear import wear_asked_for
-from solvers.scuffing.model import distribution
-from solvers.scuffing.results import LoadDistribution
-from solvers.scuffing.thermal.temperatures import in_force, oil_notices
+from solvers.scuffing.thermal.temperatures import oil_notices
 
 
 def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTrainResult:
@@ -38,61 +31,55 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     else:
         prepared = prepare(inputs)
         equilibrium = settle(inputs, prepared, start)
-    system, mesh, thermal = prepared.unit, prepared.mesh, prepared.thermal
-    spread = distribution(inputs.mesh.distribution, mesh.prepared, equilibrium.balance)
-    contact, spread, flash, _, rule, ran = in_force(contact_of(inputs), spread)
-    inputs = replace(inputs, mesh=contact)
+    system = prepared.unit
+    flanks = [None] * len(prepared.meshes) if warm is None else warm.helix_flanks
+    faces = [loaded_face(inputs, prepared, equilibrium, k, own) for k, own in enumerate(flanks)]
+    number = decisive(faces)
+    face = faces[number]
+    inputs, spread, flank, result = face.inputs, face.spread, face.flank, face.result
     hubs = hubs_of(system, equilibrium)
     couplings = coupling_results(system, equilibrium, hubs)
-    shafts = shaft_results(inputs, mesh.prepared.path, system, equilibrium, couplings)
+    shafts = shaft_results(inputs, prepared.path, system, equilibrium, couplings)
     gas = gas_heat(inputs.pumping, inputs.mesh.distribution.load.pinion_speed)
-    flank = flank_heat(inputs, spread, flash, thermal)
-    heat = None if warm is None else with_safety_band(inputs, rule, warm.heat, flank.safety)
-    load = face_load(spread)
-    losses = train_losses(inputs, spread.friction_loss.power, gas.power, shafts, couplings, heat)
+    heat = None if warm is None else with_safety_band(inputs, face.rule, warm, number, flank.safety)
+    frictions = [own.spread.friction_loss.power for own in faces]
+    friction = None if None in frictions else sum(power for power in frictions if power is not None)
+    losses = train_losses(inputs, friction, gas.power, shafts, couplings, heat)
+    double = system.split is not None
+    axial = axial_balance(inputs, prepared, equilibrium, couplings)
     return DriveTrainResult(
-        misalignment=misalignment(inputs, system, mesh, thermal, equilibrium),
-        load=load,
+        misalignment=result.misalignment,
+        load=result.load,
         shafts=shafts,
         couplings=couplings,
         flash=flank.flash,
         safety=flank.safety,
         losses=losses,
-        balance=force_balance(system, equilibrium, _torques(inputs), mesh.transmitted),
+        balance=force_balance(system, equilibrium, _torques(inputs), prepared.meshes[0].transmitted),
         convergence=Convergence(equilibrium.iterations, equilibrium.residual),
-        micropitting=flank.micropitting.answer,
-        wear=wear_asked_for(inputs.mesh.micropitting, spread),
+        micropitting=result.micropitting,
+        wear=result.wear,
         mesh=spread,
         heat=heat,
         over_the_flow=None if warm is None else partial(over_the_flow, warm.balance),
-        contact_temperature=frozen(flank.temperature),
-        film_ratio=None if flank.micropitting.ratio is None else frozen(flank.micropitting.ratio),
-        derived=derived(inputs, spread, ran, heat),
+        contact_temperature=result.contact_temperature,
+        film_ratio=result.film_ratio,
+        derived=derived(inputs, spread, face.ran, heat),
+        axial=axial,
+        helices=tuple(own.result for own in faces) if double else None,
+        decisive_helix=number + 1 if double else None,
         warnings=(
             *spread.warnings,
             *coupling_notices(inputs, couplings, warnings_of(system, equilibrium)),
             *shaft_notices(inputs, shafts),
-            *load_notices(inputs, load),
+            *load_notices(inputs, [own.result.load for own in faces]),
             *loss_notices(inputs, losses),
-            *oil_notices(inputs.mesh, spread.path_of_contact, ran),
+            *(() if axial is None else helix_notices(inputs, axial, heat)),
+            *oil_notices(inputs.mesh, spread.path_of_contact, face.ran),
             *(() if heat is None else heat.warnings),
             *flank.warnings,
             *gas.warnings,
         ),
-    )
-
-
-def face_load(spread: LoadDistribution) -> FaceLoad:
-    """Return the largest values of the load over the face, and the face load factor."""
-    loaded = spread.load.face_load_factor is not None
-    shares = np.trapezoid(spread.flank.line_load, axis=0)
-    return FaceLoad(
-        face_load_factor=spread.load.face_load_factor,
-        face_load_at=float(spread.flank.face_fraction[int(np.argmax(shares))]) if loaded else None,
-        max_line_load=spread.load.max_line_load,
-        max_pressure=spread.pressure.max,
-        contact_fraction=spread.load.contact_fraction,
-        transmission_error_pp=spread.transmission_error.peak_to_peak,
     )
 
 

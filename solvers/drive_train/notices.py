@@ -1,6 +1,6 @@
 """Warnings of a drive train: results out of range, assumptions that matter, inputs that look wrong."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from solvers.contact.notices import high_pressure
@@ -9,13 +9,16 @@ from solvers.drive_train.checks import NAMES
 from solvers.drive_train.film.law import WIDEST
 from solvers.drive_train.inputs import BearingFilm, DriveTrainInputs, JournalBearing
 from solvers.drive_train.results import (
+    AxialBalance,
     CouplingResult,
     DriveTrainResult,
     FaceLoad,
     ShaftResult,
     TrainLosses,
 )
+from solvers.gears.inputs import GearPairInputs
 from solvers.gears.notices import tooth_load, tooth_temperature, unusual_gears
+from solvers.heat_balance import Heat
 from solvers.lubricants import hot_oil, oil_temperature, thick_oil
 from solvers.notices import Notice
 from solvers.pumping.notices import thin_air
@@ -25,6 +28,8 @@ SHORT_BEARING = 0.7  # ratio of width to diameter above which the theory of shor
 ROUNDING = 1e-9  # relative rounding error of lengths that were converted from other units
 THIN_FILM = 15e-6  # m; thinner films give a warning
 LARGE_ECCENTRICITY = 0.9  # customary design limit, at which the thinnest film is a tenth of the clearance
+UNEQUAL = 1.1  # chosen: larger share over half the load above which unequal helices are worth a warning
+NARROW = 3.0  # chosen: normal modules; through a gap of 1.6 to 3 modules the gas of both helices escapes
 LIFTED = 0.9  # contact fraction below which flanks count as lifted off
 
 
@@ -42,7 +47,7 @@ def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResu
             )
             yield Notice("bearing_loss_left_out", message, f"{name}.bearings", rank="note")
         thrust = result.thrust
-        if thrust.reverses:
+        if thrust.reverses and inputs.mesh.distribution.gears.helices == 1:  # two helices leave no thrust to reverse
             message = (
                 f"the friction of the coupling can reverse the thrust, which ranges from {thrust.lower:.0f} to "
                 f"{thrust.upper:.0f} N"
@@ -85,26 +90,84 @@ def _film_notices(
         yield Notice("thin_film", message, f"{field}.radial_clearance")
 
 
-def load_notices(inputs: DriveTrainInputs, load: FaceLoad) -> Iterator[Notice]:
-    """Warn if the load is largest at an end of the face, or if flanks lift off.
+def load_notices(inputs: DriveTrainInputs, loads: Sequence[FaceLoad]) -> Iterator[Notice]:
+    """Warn if the load of a face is largest at its end, or if flanks lift off.
 
     Also warn if heat deforms the gears and the inputs do not give the wall response.
     """
-    if load.face_load_at in {0.0, 1.0}:
-        message = f"the load is largest at the end y/b = {load.face_load_at:.0f} of the face"
-        yield Notice("edge_load", message, "mesh.distribution.modifications.helix_slope")
-    if load.contact_fraction < LIFTED:
-        message = (
-            f"only a share of {load.contact_fraction:.2f} of the contact length carries load; at the other places the "
-            "flanks lift off"
-        )
-        yield Notice("lift_off", message, "mesh.distribution.modifications")
+    for number, load in enumerate(loads, start=1):
+        where = f"helix {number}: " if len(loads) > 1 else ""
+        slope = "second_helix.helix_slope" if number > 1 else "helix_slope"
+        if load.face_load_at in {0.0, 1.0}:
+            message = f"{where}the load is largest at the end y/b = {load.face_load_at:.0f} of the face"
+            yield Notice("edge_load", message, f"mesh.distribution.modifications.{slope}")
+        if load.contact_fraction < LIFTED:
+            message = (
+                f"{where}only a share of {load.contact_fraction:.2f} of the contact length carries load; at the other "
+                "places the flanks lift off"
+            )
+            yield Notice("lift_off", message, "mesh.distribution.modifications")
     if inputs.effects.thermal and inputs.heat.wall_response is None:
         message = (
             "the wall response is not given and is assumed to be 0.5. Real values lie between 0.2 and 1 and are known "
             "only from measurements"
         )
         yield Notice("wall_response_assumed", message, "heat.wall_response", rank="note")
+
+
+def helix_notices(inputs: DriveTrainInputs, axial: AxialBalance, heat: Heat | None) -> Iterator[Notice]:
+    """Warn of unequal helices and of what can unload one, of double-helical gears."""
+    gears, load = inputs.mesh.distribution.gears, inputs.mesh.distribution.load
+    if {0.0, 1.0} & {share for shares in axial.share_bounds for share in shares}:
+        message = (
+            "the couplings' friction at its limit can lift one helix off, which takes "
+            f"{axial.unloading_force / 1e3:.4g} kN along the floating shaft; lower the friction or let the other shaft "
+            "float"
+        )
+        yield Notice("helix_may_unload", message, "floating_shaft")
+    if axial.share_factor > UNEQUAL:
+        message = (
+            f"one helix carries {50 * axial.share_factor:.0f} % of the load, because {axial.force / 1e3:.4g} kN act "
+            "along the floating shaft"
+        )
+        yield Notice("unequal_shares", message, "floating_shaft")
+        if heat is None:
+            message = (
+                "the helices carry unequal loads and do not have the one bulk temperature that is given: the hotter "
+                "one is less safe than computed"
+            )
+            yield Notice("helices_warm_unequally", message, "mesh.temperatures.bulk")
+        if load.mesh_load_factor != 1.0:
+            message = (
+                f"K_γ {load.mesh_load_factor:.3g} is given, and the model computes unequal shares as well; give K_γ 1 "
+                "unless it stands for something else"
+            )
+            yield Notice("counted_twice", message, "mesh.distribution.load.mesh_load_factor")
+    if heat is not None:
+        message = (
+            "each helix has the flank temperatures of a balance in which both carry its load; in truth heat flows "
+            "through the gap, and the temperatures lie closer together"
+        )
+        yield Notice("helices_warm_apart", message, "cooling", rank="note")
+    if (gears.gap_width or 0.0) < NARROW * gears.normal_module and inputs.effects.thermal:
+        message = (
+            f"the gap between the helices is narrower than {NARROW:.0f} modules: the gas that both helices pump may "
+            "not escape there, and both are hotter than computed"
+        )
+        yield Notice("narrow_gap", message, "gears.gap_width")
+    fast = "pinion" if gears.pinion.teeth <= gears.wheel.teeth else "wheel"
+    if axial.floating_shaft != fast and inputs.acting_couplings:
+        message = (
+            f"the slow shaft floats; a coupling on it shifts {gears_ratio(gears):.3g} times the load from helix to "
+            "helix that one on the fast shaft would at the same hub diameter"
+        )
+        yield Notice("slow_shaft_floats", message, "floating_shaft", rank="note")
+
+
+def gears_ratio(gears: GearPairInputs) -> float:
+    """Ratio of the numbers of teeth, at least 1 [-]."""
+    teeth = gears.pinion.teeth, gears.wheel.teeth
+    return max(teeth) / min(teeth)
 
 
 def loss_notices(inputs: DriveTrainInputs, losses: TrainLosses) -> Iterator[Notice]:
@@ -161,4 +224,5 @@ def unusual_values(inputs: DriveTrainInputs, result: DriveTrainResult) -> Iterat
     yield from unusual_gears(mesh.gears, mesh.load.pinion_speed)
     yield from unusual_modifications(mesh.modifications)
     yield from high_pressure(load.max_pressure)
-    yield from tooth_load(mesh.gears, mesh.load.torque, load.max_line_load)
+    share = max((helix.share for helix in result.helices), default=1.0) if result.helices else 1.0
+    yield from tooth_load(mesh.gears, share * mesh.load.torque, load.max_line_load)

@@ -7,12 +7,10 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.drive_train.gap.balance import Equilibrium
 from solvers.drive_train.gap.face_curves import face_slope
+from solvers.drive_train.helices import decisive, loaded_face
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.prepared import Prepared, prepare, settle
-from solvers.drive_train.safety import contact_of, flank_heat
 from solvers.drive_train.unit_heat import asks_for_balance, warm_unit
-from solvers.scuffing.model import distribution
-from solvers.scuffing.thermal.temperatures import in_force
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,14 +52,14 @@ def outcome(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Outcom
 
 
 def outcome_of(inputs: DriveTrainInputs, prepared: Prepared, equilibrium: Equilibrium) -> Outcome:
-    """Return the main results of a unit in equilibrium, without the thermal film."""
-    spread = distribution(inputs.mesh.distribution, prepared.mesh.prepared, equilibrium.balance)
-    contact, spread, flash, *_ = in_force(contact_of(inputs), spread)
-    closed = replace(inputs, mesh=replace(contact, lubrication="closed_form"))
-    heat = flank_heat(closed, spread, flash, prepared.thermal)
+    """Return the main results of a unit in equilibrium, of the decisive helix, without the thermal film."""
+    closed = replace(inputs, mesh=replace(inputs.mesh, lubrication="closed_form"))
+    faces = [loaded_face(closed, prepared, equilibrium, k, None) for k in range(len(prepared.meshes))]
+    number = decisive(faces)
+    spread, heat = faces[number].spread, faces[number].flank
     shares = np.trapezoid(spread.flank.line_load, axis=0)
     mean = float(np.trapezoid(shares) / (shares.size - 1))
-    slope = face_slope(equilibrium.gap)
+    slope = face_slope(equilibrium.gap[number])
     return Outcome(
         face_load_factor=spread.load.face_load_factor,
         safety=None if heat.safety is None else heat.safety.blok_flank,
@@ -72,6 +70,6 @@ def outcome_of(inputs: DriveTrainInputs, prepared: Prepared, equilibrium: Equili
         transmission_error_peak_to_peak=spread.transmission_error.peak_to_peak,
         shares=np.asarray(shares) / (mean if mean > 0.0 else 1.0),
         temperature=heat.temperature,
-        limit=closed.mesh.temperatures.scuffing,
+        limit=faces[number].inputs.mesh.temperatures.scuffing,
         gap=equilibrium.gap,
     )

@@ -4,10 +4,11 @@ Vectors are (X, Y). A positive gap separates the flanks.
 """
 
 from collections.abc import Callable
+from typing import Literal
 
 from solvers.arrays import FloatArray
 from solvers.drive_train.derived import Derived
-from solvers.drive_train.inputs import Vector2
+from solvers.drive_train.inputs import ShaftName, Vector2
 from solvers.drive_train.shafts.thrust_budget import Thrust
 from solvers.heat_balance import FlowCurve
 from solvers.heat_balance.results import Heat
@@ -227,6 +228,15 @@ class CouplingResult:
     friction_power: float = quantity(
         "friction power of the coupling", "P_C", unit="w", text="of both hubs", equation="D9"
     )
+    held_thrust_fraction: float | None = quantity(
+        "share of the friction limit that a tilted hub holds along the shaft",
+        "τ_held",
+        text="max(0, 1 − δ/δ_0) of the hub that holds less; above 0 the coupling can lock; left out without two "
+        "helices",
+        default=None,
+        left_out=True,
+        equation="D21",
+    )
 
 
 @record(equation="D15")
@@ -366,6 +376,81 @@ class FlankMaps:
     )
 
 
+@record(kw_only=True)
+class HelixResult:
+    """One helix of a double-helical unit."""
+
+    hand: Literal["right", "left"] = quantity("hand of the helix", text="of the pinion")
+    start: float = quantity("start of the helix", "z_F", unit="mm", text="its end of lowest Z")
+    share: float = quantity("share of the load", "F_i/F", text="of the helix", equation="D17")
+    axial_force: float = quantity(
+        "axial force of the helix", "F_a", unit="n", text="on the pinion, towards +Z", equation="D17"
+    )
+    pinion_flank: float | None = quantity(
+        "flank temperature of the helix on the pinion",
+        "θ_F1",
+        unit="c",
+        text="as if the other helix carried the same; null without a heat balance",
+        equation="D20",
+    )
+    wheel_flank: float | None = quantity(
+        "flank temperature of the helix on the wheel",
+        "θ_F2",
+        unit="c",
+        text="as if the other helix carried the same; null without a heat balance",
+        equation="D20",
+    )
+    misalignment: Misalignment = quantity("misalignment", text="gap over the face, by causes")
+    load: FaceLoad = quantity("load", text="how the face carries")
+    flash: FlashPlaces = quantity("flash temperature")
+    safety: TrainSafety | None = quantity("safety", text="safety factors; null without a scuffing temperature")
+    micropitting: Micropitting | None = quantity(
+        "micropitting", text="film against micropitting; null if not asked for"
+    )
+    wear: Wear | None = quantity("wear", text="mild wear; null without a wear coefficient")
+    mesh: LoadDistribution = described("Load distribution of the helix.")
+    contact_temperature: FloatArray = described("Contact temperature by Blok over the flank [profile, face] [K].")
+    film_ratio: FloatArray | None = described(
+        "Film ratio against micropitting over the flank [profile, face]; or None."
+    )
+
+
+_Number = float  # the class below has a field of the name `float`
+
+
+@record(kw_only=True, equation="D17")
+class AxialBalance:
+    """The axial balance of the shaft that floats, which splits the load over two helices."""
+
+    apex: Literal["leading", "trailing"] = quantity(
+        "apex of the helices", text="leading: both helices mesh first at the gap; trailing: at their outer ends"
+    )
+    floating_shaft: ShaftName = quantity("shaft that floats", text="held along Z by the mesh alone")
+    force: _Number = quantity(
+        "axial force on the floating shaft", "F_ext", unit="n", text="external and of its couplings, towards +Z"
+    )
+    share_factor: _Number = quantity("load factor of unequal shares", "K_γ", text="larger share over half the load")
+    share_bounds: tuple[Vector2, Vector2] = quantity(
+        "bounds of the shares",
+        "F_i/F",
+        text="with the couplings' friction at its limit towards -Z and towards +Z",
+        index="thrust towards -Z, towards +Z; helix",
+    )
+    unloading_force: _Number = quantity(
+        "axial force that unloads a helix", "F_bt tan β_b", unit="n", text="at which one helix lifts off"
+    )
+    runout_thrust_fraction: _Number | None = quantity(
+        "share of the friction limit by the apex's runout",
+        "τ_A",
+        text="(2/π) asin(e_A/(r_o (δ_A + δ_B))) of the sliding hubs; null without a runout or a coupling on the "
+        "floating shaft",
+        equation="D21",
+    )
+    float: _Number | None = quantity(
+        "axial float", "a", unit="um", text="of the pinion against the wheel, towards +Z", equation="D18"
+    )
+
+
 @record
 class States:
     """The unit in states other than the hot state; a state without a solution is None."""
@@ -404,6 +489,19 @@ class DriveTrainResult:
     warnings: tuple[Notice, ...]
     derived: Derived = quantity("what was left open, as used")
     states: States | None = quantity("states", text="null unless other states were asked for", default=None)
+    axial: AxialBalance | None = quantity(
+        "axial balance", text="of double-helical gears; left out otherwise", default=None, left_out=True
+    )
+    helices: tuple[HelixResult, ...] | None = quantity(
+        "helices", text="of double-helical gears, in the order of Z; left out otherwise", default=None, left_out=True
+    )
+    decisive_helix: int | None = quantity(
+        "decisive helix",
+        text="1 at the lower Z, or 2: the one with the least safety, else the largest pressure, whose results stand "
+        "above; left out without two helices",
+        default=None,
+        left_out=True,
+    )
 
     @property
     @computed("over the flank", detail="fields")

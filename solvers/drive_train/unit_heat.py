@@ -19,17 +19,19 @@ from solvers.drive_train.checks import NAMES, check_bearing_count
 from solvers.drive_train.elements import coupling_results, hubs_of
 from solvers.drive_train.gap.balance import Equilibrium
 from solvers.drive_train.gap.thermal_lead import gas_heat
+from solvers.drive_train.helices import on_face
 from solvers.drive_train.inputs import BearingFilm, DriveTrainInputs, JournalBearing, Shaft, UnitCoupling
 from solvers.drive_train.prepared import Prepared, prepare, settle
 from solvers.drive_train.results import TrainSafety
 from solvers.drive_train.shafts.bearings import friction_and_leakage
 from solvers.drive_train.shafts.influence import Unit
 from solvers.errors import NoSolution
-from solvers.heat_balance import Heat, HeatBalanceInputs, Journal, rod_conductance
+from solvers.heat_balance import Heat, HeatBalanceInputs, Journal, MeshHeat, rod_conductance
+from solvers.heat_balance.inputs import Measured
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.model import distribution
 from solvers.scuffing.safety import safety_factor
-from solvers.scuffing.thermal.bulk import BulkRule, method_asked
+from solvers.scuffing.thermal.bulk import BulkRule, Flanks, method_asked
 from solvers.scuffing.thermal.flank import map_flash
 from solvers.scuffing.thermal.pair_heat import balance_inputs, with_backlash_loss
 from solvers.scuffing.thermal.temperatures import estimated_bulk, with_friction
@@ -45,7 +47,8 @@ SHORTEST_ROD = 1e-3  # m; least length of the shaft, as a conductor of heat, bet
 class WarmUnit:
     """A unit at the temperatures of its heat balance.
 
-    `heat` is the result of the heat balance, and `balance` holds the inputs of the heat balance.
+    `heat` is the result of the heat balance, and `balance` holds the inputs of the heat balance. Of a double-helical
+    unit `helices` are the balances in which both helices carry the load of one (Eq. D20); else empty.
     """
 
     inputs: DriveTrainInputs
@@ -53,6 +56,12 @@ class WarmUnit:
     equilibrium: Equilibrium
     heat: Heat
     balance: HeatBalanceInputs
+    helices: tuple[Heat, ...]
+
+    @property
+    def helix_flanks(self) -> list[Flanks | None]:
+        """Flank temperatures of pinion and wheel on every face [K]; None where those of the unit hold."""
+        return [(heat.pinion.flank, heat.wheel.flank) for heat in self.helices] or [None]
 
 
 def asks_for_balance(inputs: DriveTrainInputs) -> bool:
@@ -80,7 +89,7 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
     for _ in range(MOST_PASSES):
         prepared = prepare(warm)
         equilibrium = settle(warm, prepared, start)
-        balance = _balance(inputs, warm, prepared, equilibrium)
+        balance, of_helices = _balance(inputs, warm, prepared, equilibrium)
         quick = replace(balance, cooling=replace(balance.cooling, band=False))
         heat = heat_balance.solve(quick)
         temperatures = _temperatures(heat)
@@ -90,8 +99,9 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
         warm = with_balance(inputs, heat)
         if change < CLOSE:
             heat = heat_balance.solve(balance) if balance.cooling.band else heat
-            heat = with_backlash_loss(heat, prepared.mesh.prepared.path.pair)
-            return WarmUnit(warm, prepared, equilibrium, heat, balance)
+            heat = with_backlash_loss(heat, prepared.path.pair)
+            helices = tuple(heat_balance.solve(_of_helix(balance, heat, mesh)) for mesh in of_helices)
+            return WarmUnit(warm, prepared, equilibrium, heat, balance, helices)
     message = (
         f"temperatures and alignment of the unit do not settle; the temperatures still change by {change:.3g} K after "
         f"{MOST_PASSES} passes. Give more oil or larger bearings"
@@ -188,20 +198,29 @@ def _with_rise(coupling: UnitCoupling, casing: float | None, reference: float) -
 
 def _balance(
     inputs: DriveTrainInputs, warm: DriveTrainInputs, prepared: Prepared, equilibrium: Equilibrium
-) -> HeatBalanceInputs:
+) -> tuple[HeatBalanceInputs, tuple[MeshHeat, ...]]:
     """Return the inputs of the heat balance that follow from the loads in `equilibrium`.
 
     `inputs` is the unit as given, and `warm` is the unit at the temperatures with which `equilibrium` was computed.
+    Also return the friction of the mesh if both helices were loaded like one of them, for each; empty for one face.
     """
-    mesh = prepared.mesh.prepared
-    spread = distribution(warm.mesh.distribution, mesh, equilibrium.balance)
-    contact, spread = with_friction(inputs.mesh, spread)
-    balance = balance_inputs(contact, spread, estimated_bulk(contact, spread, map_flash(contact.distribution, spread)))
+    balances = []
+    for helix, mesh in enumerate(equilibrium.meshes):
+        own = on_face(warm, helix, float(equilibrium.shares[helix])).mesh.distribution
+        spread = distribution(own, mesh.prepared, equilibrium.balances[helix])
+        contact, spread = with_friction(replace(inputs.mesh, distribution=own), spread)
+        flash = map_flash(contact.distribution, spread)
+        balances.append(balance_inputs(contact, spread, estimated_bulk(contact, spread, flash)))
+    helices = tuple(each.mesh for each in balances) if len(balances) > 1 else ()
+    balance = max(balances, key=lambda each: each.mesh.power)  # the estimate that it repeats is the warmer one
+    if helices:
+        balance = replace(balance, mesh=_mean(helices))
     gas = gas_heat(inputs.pumping, inputs.mesh.distribution.load.pinion_speed)
-    system, face = prepared.unit, (inputs.face_start, inputs.face_start + inputs.mesh.distribution.gears.face_width)
+    width = inputs.mesh.distribution.gears.total_width
+    system, face = prepared.unit, (inputs.face_start, inputs.face_start + width)
     couplings = coupling_results(system, equilibrium, hubs_of(system, equilibrium))
     pinion, wheel = balance.gears
-    return replace(
+    balance = replace(
         balance,
         gears=(
             replace(pinion, shaft_radii=_radii_beside(inputs.pinion_shaft, face)),
@@ -211,6 +230,31 @@ def _balance(
         journals=tuple(_journals(system, equilibrium, face)),
         couplings=sum(result.friction_power for result in couplings),
     )
+    return balance, helices
+
+
+def _mean(helices: tuple[MeshHeat, ...]) -> MeshHeat:
+    """Return the friction of both helices: each one stands for twice its own."""
+    powers, first = [helix.power for helix in helices], helices[0]
+    total = sum(powers)
+    to_pinion = sum(helix.share_to_pinion * helix.power for helix in helices) / total if total > 0.0 else None
+    formulas = [helix.by_formula for helix in helices if helix.by_formula is not None]
+    return replace(
+        first,
+        power=total / len(helices),
+        share_to_pinion=first.share_to_pinion if to_pinion is None else to_pinion,
+        by_formula=sum(formulas) / len(formulas) if formulas else None,
+    )
+
+
+def _of_helix(balance: HeatBalanceInputs, heat: Heat, mesh: MeshHeat) -> HeatBalanceInputs:
+    """Return the balance in which both helices carry the load of one, with the oil and the calibration of the unit."""
+    cooling = replace(balance.cooling, gear_flow=heat.gear_flow)
+    if cooling.measured.any:
+        other = cooling.other if cooling.measured.drain is None else heat.losses.other
+        wetting = heat.wetting_share if cooling.measured.rotors else cooling.wetting_share
+        cooling = replace(cooling, measured=Measured(), wetting_share=wetting, other=other)
+    return replace(balance, cooling=cooling, mesh=mesh)
 
 
 def _journals(system: Unit, equilibrium: Equilibrium, face: tuple[float, float]) -> Iterator[Journal]:
@@ -284,13 +328,16 @@ def _temperatures(heat: Heat) -> FloatArray:
     return np.array([*gears, *films, *casing])
 
 
-def with_safety_band(inputs: DriveTrainInputs, rule: BulkRule, heat: Heat, safety: TrainSafety | None) -> Heat:
-    """Return the heat balance with the bands of the bulk temperature of the contact and of the safety factor.
+def with_safety_band(
+    inputs: DriveTrainInputs, rule: BulkRule, warm: WarmUnit, face: int, safety: TrainSafety | None
+) -> Heat:
+    """Return the heat balance with the bands of the bulk temperature of the contact and of the safety on a face.
 
     The flash temperature is the same at both ends.
     """
-    temperatures = inputs.mesh.temperatures
-    bulks = [bulk for flanks in heat.flank_cases if (bulk := rule.bulk(flanks)) is not None]
+    temperatures, heat = inputs.mesh.temperatures, warm.heat
+    cases = (warm.helices[face] if warm.helices else heat).flank_cases
+    bulks = [bulk for flanks in cases if (bulk := rule.bulk(flanks)) is not None]
     if heat.band is None or not bulks:
         return heat
     heat = replace(heat, band=replace(heat.band, bulk=(min(bulks), max(bulks))))

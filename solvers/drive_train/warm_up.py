@@ -9,6 +9,7 @@ import numpy as np
 from solvers import heat_balance
 from solvers.arrays import ROUNDING, FloatArray, frozen
 from solvers.drive_train.derived import Derived, derived
+from solvers.drive_train.helices import on_face
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft, torsion_diameter
 from solvers.drive_train.outcome import Outcome, outcome_of
 from solvers.drive_train.prepared import prepare, settle
@@ -196,9 +197,13 @@ def _least_safety(outcomes: list[Outcome]) -> float | None:
 
 def _derived(warm: WarmUnit) -> Derived:
     """Return the values that the warm unit uses for the inputs that the user has not given."""
-    spread = distribution(warm.inputs.mesh.distribution, warm.prepared.mesh.prepared, warm.equilibrium.balance)
-    contact, spread, *_, ran = in_force(contact_of(warm.inputs), spread)
-    return derived(replace(warm.inputs, mesh=contact), spread, ran, warm.heat)
+    equilibrium = warm.equilibrium
+    face = int(np.argmax(equilibrium.shares))
+    inputs = on_face(warm.inputs, face, float(equilibrium.shares[face]))
+    mesh = equilibrium.meshes[face].prepared
+    spread = distribution(inputs.mesh.distribution, mesh, equilibrium.balances[face])
+    contact, spread, *_, ran = in_force(contact_of(inputs), spread)
+    return derived(replace(inputs, mesh=contact), spread, ran, warm.heat)
 
 
 def _capacities(unit: DriveTrainInputs, warm: WarmUnit) -> Capacities:
@@ -288,7 +293,7 @@ def _least_backlash(unit: DriveTrainInputs, warm: WarmUnit, course: WarmUp) -> f
     """
     if course.nodes[-1] != "casing":
         return None
-    pair: GearPair = warm.prepared.mesh.prepared.path.pair
+    pair: GearPair = warm.prepared.path.pair
     temperatures = course.curves.temperature
     rises = [temperatures[:, body] - temperatures[:, -1] for body in BODIES]
     growth = STEEL_EXPANSION * (pair.pinion_working_radius * rises[0] + pair.wheel_working_radius * rises[1])

@@ -10,6 +10,13 @@ from solvers.gears.inputs import GearPairInputs, GearTeeth
 PRINTED = 1e-4
 
 
+def check_helices(inputs: GearPairInputs) -> None:
+    """Refuse double-helical gears without a helix. Raises InvalidInput `double_helical_spur`."""
+    if inputs.gap_width is not None and inputs.helix_angle == 0.0:
+        message = "double-helical gears need a helix; give a helix angle or leave the gap width out"
+        raise InvalidInput("double_helical_spur", message, "helix_angle")
+
+
 def check_rack(inputs: GearPairInputs, teeth: GearTeeth, name: str) -> None:
     """Refuse a pointed rack.
 

@@ -103,7 +103,26 @@ class GearPairInputs:
         ),
     )
     face_width: float = quantity(
-        "face width", "b", ISO_21771, unit="mm", ge=0.01, le=5000, tolerance=0.1, text="common face width"
+        "face width",
+        "b",
+        ISO_21771,
+        unit="mm",
+        ge=0.01,
+        le=5000,
+        tolerance=0.1,
+        text="common face width; of double-helical gears, the width of one helix",
+    )
+    gap_width: float | None = quantity(
+        "gap between the helices",
+        "e",
+        unit="mm",
+        kw_only=True,
+        default=None,
+        ge=0,
+        le=2000,
+        tolerance=0.1,
+        text="its presence makes the gears double helical",
+        default_text="single helical or spur",
     )
     centre_distance: float | None = quantity(
         "centre distance",
@@ -128,6 +147,21 @@ class GearPairInputs:
         text="tip radius coefficient of the rack, at most the full radius",
         assumed="a usual ground fillet; the paper gives none",
     )
+
+    @property
+    def helices(self) -> int:
+        """Number of helices side by side: 2 of double-helical gears."""
+        return 1 if self.gap_width is None else 2
+
+    @property
+    def toothed_width(self) -> float:
+        """Width of all helices, without the gap between them [m]."""
+        return self.helices * self.face_width
+
+    @property
+    def total_width(self) -> float:
+        """Width from the first helix's outer end to the last one's, with the gap [m]."""
+        return self.toothed_width + (self.gap_width or 0.0)
 
     @property
     def normal_module(self) -> float:

@@ -14,6 +14,7 @@ from solvers.arrays import FloatArray
 from solvers.compiled import kernel
 from solvers.gears.checks import (
     centre_distance_in_use,
+    check_helices,
     check_path,
     check_rack,
     check_teeth,
@@ -87,12 +88,14 @@ def gear_pair(inputs: GearPairInputs) -> GearPair:
     Raises
     ------
     InvalidInput
-        `pointed_rack`, `no_involute`, `pointed_tooth`, `flank_interference`, `no_mesh` or `no_tip_clearance`.
+        `double_helical_spur`, `pointed_rack`, `no_involute`, `pointed_tooth`, `flank_interference`, `no_mesh` or
+        `no_tip_clearance`.
 
     Notes
     -----
     Eq. L1.
     """
+    check_helices(inputs)
     transverse_module = inputs.normal_module / cos(inputs.helix_angle)
     transverse_pressure_angle = atan(tan(inputs.normal_pressure_angle) / cos(inputs.helix_angle))
     pinion, wheel = _gear(inputs, inputs.pinion, "pinion"), _gear(inputs, inputs.wheel, "wheel")

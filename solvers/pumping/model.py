@@ -106,7 +106,7 @@ def _solve(inputs: PumpingInputs, *, refine: bool) -> PumpingResult:
         space = mesh.spaces[gear]
         return bands(mesh.gas, space.table, on_grids(mesh, space, speed, number))
 
-    total = _totals(mesh, speed, frequency, sum(result.pumping_power for result in results))
+    total = _totals(mesh, speed, frequency, sum(result.pumping_power for result in results) * mesh.setup.gears.helices)
     return PumpingResult(
         geometry=_geometry(mesh),
         pinion_spaces=of_gear.get(True),

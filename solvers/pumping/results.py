@@ -254,6 +254,15 @@ class Derived:
         text="in normal modules, as far as both racks have room for it",
         equation="pumping#geometry-of-the-tooth-space",
     )
+    total_face_width: float | None = quantity(
+        "total face width used",
+        "2b + e",
+        unit="mm",
+        text="both helices and the gap; left out without two helices",
+        default=None,
+        left_out=True,
+        equation="L1",
+    )
 
 
 @record(equation="P11")

@@ -71,7 +71,9 @@ def derived(mesh: Mesh) -> Derived:
     """Return values that follow from the inputs, including the defaults of inputs that are not given."""
     gears = mesh.setup.gears
     room = min(rack_tip_radius(gears, teeth) for teeth in (gears.pinion, gears.wheel))
-    return Derived(mesh.pair.centre_distance, mesh.setup.model.slice_count, room)
+    gears = mesh.setup.gears
+    total = None if gears.helices == 1 else gears.total_width
+    return Derived(mesh.pair.centre_distance, mesh.setup.model.slice_count, room, total)
 
 
 def _active_share(space: Space, face_width: float) -> float:

@@ -1,6 +1,6 @@
 """Inputs of a load distribution and of a scuffing check."""
 
-from dataclasses import field
+from dataclasses import field, replace
 from math import pi
 from typing import Literal
 
@@ -79,6 +79,18 @@ class Load:
     mesh_load_factor: float = quantity(
         "mesh load factor", "K_γ", ISO_6336, default=1.0, ge=0.1, le=10, text="multiplies the load of the contacts"
     )
+    axial_force: float = quantity(
+        "external axial force",
+        "F_ext",
+        unit="n",
+        kw_only=True,
+        default=0.0,
+        ge=-1e8,
+        le=1e8,
+        tolerance=100,
+        text="on the shaft that floats, towards +Z; loads one helix of double-helical gears more than the other",
+    )
+    helix_share: float = described("Share of the torque that the helix carries.", kw_only=True, default=1.0)
 
     @property
     def contact_factor(self) -> float:
@@ -87,8 +99,13 @@ class Load:
 
     @property
     def contact_torque(self) -> float:
-        """Pinion torque that loads the contacts [N m]."""
-        return self.contact_factor * self.torque
+        """Pinion torque that loads the contacts of the helix [N m]."""
+        return self.contact_factor * self.helix_torque
+
+    @property
+    def helix_torque(self) -> float:
+        """Pinion torque that the helix carries, without load factors [N m]."""
+        return self.helix_share * self.torque
 
     @property
     def torque(self) -> float:
@@ -140,6 +157,38 @@ class LeadCurve:
         tolerance=2,
         length=(0, 1000),
         text="gap, positive where material is missing",
+    )
+
+
+@record
+class SecondHelix:
+    """What differs on the helix at the higher Z; y runs from that helix's own end that meshes first."""
+
+    helix_slope: float | None = quantity(
+        "helix slope of the second helix",
+        "f_Hβ,2",
+        XUE,
+        unit="um",
+        default=None,
+        ge=-1000,
+        le=1000,
+        tolerance=8,
+        text="positive opens the gap towards the end that leaves the mesh last",
+        default_text="as on the first helix",
+    )
+    lead_crowning: float | None = quantity(
+        "helix crowning of the second helix",
+        "C_β,2",
+        XUE,
+        unit="um",
+        default=None,
+        ge=-1000,
+        le=1000,
+        tolerance=3,
+        default_text="as on the first helix",
+    )
+    lead_curve: LeadCurve | None = quantity(
+        "lead curve of the second helix", default=None, text="any gap along its face; null: as on the first helix"
     )
 
 
@@ -285,6 +334,24 @@ class Modifications:
         assumed="linear; the paper does not say",
     )
     lead_curve: LeadCurve = quantity("lead curve", default_factory=LeadCurve, text="any gap along the face")
+    second_helix: SecondHelix | None = quantity(
+        "second helix",
+        default=None,
+        text="what differs on the helix at the higher Z of double-helical gears; null: both are ground alike",
+    )
+
+    @property
+    def of_second_helix(self) -> "Modifications":
+        """Modifications on the helix at the higher Z. A tilt of the axes acts there with the opposite sign."""
+        own = SecondHelix() if self.second_helix is None else self.second_helix
+        return replace(
+            self,
+            helix_slope=self.helix_slope if own.helix_slope is None else own.helix_slope,
+            lead_crowning=self.lead_crowning if own.lead_crowning is None else own.lead_crowning,
+            lead_curve=self.lead_curve if own.lead_curve is None else own.lead_curve,
+            in_plane_deviation=-self.in_plane_deviation,
+            out_of_plane_deviation=-self.out_of_plane_deviation,
+        )
 
 
 @record

@@ -102,7 +102,7 @@ def standard_stiffness(
 
 def _standard_line_load(path: PathOfContact, load: Load) -> float:
     """Line load F_t K_A/b [N/m] at the reference circle; `REFERENCE_LOAD` without load."""
-    tangential = load.application_factor * load.torque / path.pair.pinion.reference_radius
+    tangential = load.application_factor * load.helix_torque / path.pair.pinion.reference_radius
     return tangential / path.plane.face_width if tangential > 0.0 else REFERENCE_LOAD
 
 
@@ -184,7 +184,7 @@ def friction_loss(
         return FrictionLoss(friction_coefficient, loss_factor=None, power=0.0, efficiency=None)
     speed_ratio = path.pair.pinion.teeth / path.pair.wheel.teeth
     moment = period_mean(balance.survey.friction_moment, balance.rolls.phase) / load.contact_factor
-    loss_factor = moment * (1 + speed_ratio) / load.torque
+    loss_factor = moment * (1 + speed_ratio) / load.helix_torque
     if friction_coefficient is None:
         return FrictionLoss(None, loss_factor=loss_factor, power=None, efficiency=None)
     return FrictionLoss(

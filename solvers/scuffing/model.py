@@ -1,6 +1,6 @@
 """The load distribution of a helical or spur gear pair with modification and misalignment."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -45,6 +45,10 @@ class PreparedMesh:
     rolls: RollPositions
     tangential_force: float
     force: float
+
+    def sharing(self, share: float) -> "PreparedMesh":
+        """Return the mesh under a share of its force."""
+        return replace(self, tangential_force=share * self.tangential_force, force=share * self.force)
 
 
 def mesh_of(inputs: LoadDistributionInputs) -> PreparedMesh:
@@ -170,6 +174,7 @@ def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
         root_relief_length=form.root_relief_length,
         end_relief_length=form.end_relief_length,
         rack_tip_radius=min(rack_tip_radius(pair, teeth) for teeth in (pair.pinion, pair.wheel)),
+        total_face_width=None if pair.helices == 1 else pair.total_width,
     )
 
 

@@ -85,7 +85,7 @@ def gap(modifications: Modifications, path: PathOfContact) -> Gap:
     )
 
 
-def lead_table(curve: LeadCurve, face_width: float) -> FloatArray:
+def lead_table(curve: LeadCurve, face_width: float, field: str = "lead_curve") -> FloatArray:
     """Return the gap of a lead curve at equidistant points of the face [m].
 
     Raises InvalidInput (`lead_curve`) if the curve has fewer than two points, if the number of gaps differs from the
@@ -97,7 +97,7 @@ def lead_table(curve: LeadCurve, face_width: float) -> FloatArray:
         raise InvalidInput(
             "lead_curve",
             "give at least two positions, in rising order from 0 to the face width, and one gap for each position",
-            "lead_curve",
+            field,
         )
     return np.asarray(np.interp(np.linspace(0.0, face_width, LEAD_POINTS), position, value))
 

@@ -161,7 +161,7 @@ def unusual_load_values(inputs: LoadDistributionInputs, result: LoadDistribution
     yield from unusual_gears(inputs.gears, inputs.load.pinion_speed)
     yield from unusual_modifications(inputs.modifications)
     yield from high_pressure(result.pressure.max)
-    yield from tooth_load(inputs.gears, inputs.load.torque, result.load.max_line_load)
+    yield from tooth_load(inputs.gears, inputs.load.helix_torque, result.load.max_line_load)
 
 
 def unusual_modifications(modifications: Modifications) -> Iterator[Notice]:

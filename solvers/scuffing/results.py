@@ -252,6 +252,17 @@ class FrictionLoss:
     efficiency: float | None = quantity("mesh efficiency", "η_z", text="1 − μ_m H_V; null without load")
 
 
+@record(equation="D17")
+class HelixShare:
+    """Share of the load that the more loaded helix of a double-helical pair carries."""
+
+    share: float = quantity("share of the more loaded helix", "F_i/F")
+    share_factor: float = quantity("load factor of unequal shares", "K_γ", text="larger share over half the load")
+    unloading_force: float = quantity(
+        "axial force that unloads a helix", "F_bt tan β_b", unit="n", text="at which one helix lifts off"
+    )
+
+
 @dataclass(frozen=True, slots=True)
 class ContactPoints:
     """Contacts at points of the flank.
@@ -390,6 +401,14 @@ class Derived:
         text="in normal modules, as far as both racks have room for it",
         equation="load-distribution#geometry",
     )
+    total_face_width: float | None = quantity(
+        "total face width used",
+        "2b + e",
+        unit="mm",
+        text="both helices and the gap; left out without two helices",
+        default=None,
+        left_out=True,
+    )
 
 
 @record(slots=False)
@@ -415,6 +434,12 @@ class LoadDistribution:
     friction_loss: FrictionLoss = quantity("friction loss")
     derived: Derived = quantity("load and lengths used")
     warnings: tuple[Notice, ...]
+    helix: HelixShare | None = quantity(
+        "more loaded helix",
+        text="whose load and safety are stated; the losses are those of both; left out without two helices",
+        default=None,
+        left_out=True,
+    )
 
     @cached_property
     @computed("along the feature line", detail="curves")

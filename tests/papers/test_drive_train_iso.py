@@ -88,7 +88,7 @@ def test_own_shafts_of_example_1(far: bool, gap: float, factor: float) -> None:
     inputs = example_1(torque_at_far_end=far)
     prepared = prepare(inputs)
     side = prepared.unit.shafts[0]
-    force = uniform_force(prepared.mesh.prepared.tangential_force, 41)
+    force = uniform_force(prepared.meshes[0].prepared.tangential_force, 41)
     motion = prepared.unit.motion(force)[0]
     twist = side.torques.T @ (side.model.torsion @ (side.torques @ force))
     assert np.ptp(twist) * 1e6 == pytest.approx(9.61, abs=0.03)

@@ -31,7 +31,7 @@ from solvers.quantity import UNITS
 from solvers.scuffing import inputs as mesh
 
 
-class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
+class TrainGears(BacklashGears, of=si.Arrangement, only=("hand", "apex_runout")):
     """The gear pair, with its backlash and the hand of the helix."""
 
     rack_tip_radius: Annotated[
@@ -51,7 +51,7 @@ class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
         return self.si(GearPairInputs, rack_tip_radius=rack_tip_radius if own is None else own)
 
 
-class TrainOperation(ScuffingLoad, of=si.Arrangement, without=("hand",)):
+class TrainOperation(ScuffingLoad, of=si.Arrangement, without=("hand", "apex_runout")):
     """Torque or power, speed, sense of rotation and orientation of the unit."""
 
     choice_missing: ClassVar = "load_missing"
@@ -227,16 +227,23 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
         `section_diameter` if a section has no diameter and is not under the teeth.
         """
         teeth = gears.pinion if name == "pinion_shaft" else gears.wheel
+        helices = [
+            (start, start + gears.face_width)
+            for start in (face_start, face_start + gears.total_width - gears.face_width)
+        ]
         position = UNITS["mm"].to_si(self.start_mm)
         for k, cylinder in enumerate(self.sections):
             left_out = cylinder.outer_diameter_mm is None
             default = {"outer_diameter": si.torsion_diameter(gears, teeth)} if left_out else {}
             section = cylinder.si(si.ShaftSection, **default)
             end = position + section.length
-            beside = position > face_start + gears.face_width - si.COINCIDENT or end < face_start + si.COINCIDENT
-            if left_out and beside:
+            toothed = any(position < high - si.COINCIDENT and end > low + si.COINCIDENT for low, high in helices)
+            in_gap = position < helices[1][0] - si.COINCIDENT and end > helices[0][1] + si.COINCIDENT
+            if left_out and (in_gap or not toothed):
                 message = (
-                    f"the outer diameter may be left out only under the teeth; give the outer diameter of section {k}"
+                    "the outer diameter may be left out only under the teeth"
+                    + (", not in the gap between the helices" if in_gap else "")
+                    + f"; give the outer diameter of section {k}"
                 )
                 raise InvalidInput("section_diameter", message, f"{name}.sections.{k}.outer_diameter")
             yield section
@@ -312,6 +319,7 @@ class DriveTrainRequest(MeshInOil):
     face_start_mm: Annotated[float, Input.of(si.DriveTrainInputs, "face_start")]
     pinion_shaft: Annotated[UnitShaft, Input.of(si.DriveTrainInputs, "pinion_shaft")]
     wheel_shaft: Annotated[UnitShaft, Input.of(si.DriveTrainInputs, "wheel_shaft")]
+    floating_shaft: Annotated[si.ShaftName | None, Input.of(si.DriveTrainInputs, "floating_shaft")] = None
     thrust_collar: Annotated[ThrustCollar, Input("thrust collar")] = ThrustCollar()
     couplings: Annotated[list[UnitCoupling], Input.of(si.DriveTrainInputs, "couplings")] = Field(default_factory=list)
     modifications: Annotated[
@@ -408,7 +416,15 @@ class DriveTrainRequest(MeshInOil):
             | dict.fromkeys(("thermal.wall_response", "thermal.wall_response_wheel"), not self.effects.thermal)
             | dict.fromkeys(("thermal.pinion_bulk_c", "thermal.wheel_bulk_c"), self.is_balanced)
             | dict.fromkeys(("cooling.pumping_w", "cooling.casing.mass_kg"), True)
+            | dict.fromkeys(
+                ("gears.apex_runout_um", "floating_shaft", "operation.axial_force_n", "modifications.second_helix"),
+                self.gears.gap_width_mm is None,
+            )
+            | {f"{self._floating()}_shaft.thrust_bearing": self.gears.gap_width_mm is not None}
         )
+
+    def _floating(self) -> si.ShaftName:
+        return self.floating_shaft or ("pinion" if self.gears.pinion.teeth <= self.gears.wheel.teeth else "wheel")
 
 
 class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):

@@ -10,7 +10,7 @@ from solvers.materials import Solid
 from solvers.scuffing import inputs as si
 
 
-class FlankModifications(Section, of=si.Modifications, without=("lead_curve",)):
+class FlankModifications(Section, of=si.Modifications, without=("lead_curve", "second_helix")):
     """Gaps between the flanks because of modifications and misalignment.
 
     The gaps are measured along the transverse line of action. A gap is positive where material is missing.
@@ -71,4 +71,5 @@ class LoadDistributionRequest(GearPairRequest):
         return distribution_inputs(self, self.gears.si(GearPairInputs), self.load.si(si.Load))
 
     def unused(self) -> dict[str, bool]:
-        return {"materials.pinion.roughness_um": True, "materials.wheel.roughness_um": True}
+        roughness = {"materials.pinion.roughness_um": True, "materials.wheel.roughness_um": True}
+        return roughness | {"load.axial_force_n": self.gears.gap_width_mm is None}

@@ -1,16 +1,19 @@
 """The gap over the face at which the gear mesh and the shafts are in equilibrium.
 
 The gap between the flanks determines how the load is distributed over the face. The load bends the shafts, and the bent
-shafts in turn cause a gap. In equilibrium, both gaps are equal. The unknown is the gap g at the stations, which are
-points along the face. The residual R is g minus the gap that shafts, bearings and couplings cause under the load that
-belongs to g. Newton's step dg is the solution of the linear equations (I - D B) dg = -R. Here B = dQ/dg is the
-derivative of the mesh force Q. The force Q is a mean over a base pitch. The shafts follow only this mean, because the
-mesh frequency is far higher than the natural frequencies of bending and of the bearing films. D is the derivative of
-the shafts' gap with respect to Q; the response of the couplings is part of D. The mean of g over the face is
-subtracted, because this mean belongs to the transmission error. If no start value is given, an iteration with fewer
-roll positions and slices comes first. This first iteration makes most of the steps.
+shafts in turn cause a gap. In equilibrium, both gaps are equal. A double-helical pair has a gap on each of its two
+faces, which the shafts join. The unknown is the gap g at the stations, which are points along the face. The residual R
+is g minus the gap that shafts, bearings and couplings cause under the load that belongs to g. Newton's step dg is the
+solution of the linear equations (I - D B) dg = -R. Here B = dQ/dg is the derivative of the mesh force Q. The force Q is
+a mean over a base pitch. The shafts follow only this mean, because the mesh frequency is far higher than the natural
+frequencies of bending and of the bearing films. D is the derivative of the shafts' gap with respect to Q; the response
+of the couplings is part of D. The mean of g over each face is subtracted, because this mean belongs to the transmission
+error and to the axial float. The shares of two faces follow from the thrust of the couplings in the last step. If no
+start value is given, an iteration with fewer roll positions and slices comes first. This first iteration makes most of
+the steps.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -31,13 +34,14 @@ TOLERANCE = 1e-12  # m
 ITERATIONS = 40  # chosen: an iteration that needs more iterations than this does not converge
 COARSER = 4  # divisor of the numbers of roll positions and slices; the coarse mesh changes the gap by a nanometre
 ROUGH_TOLERANCE = 1e-9  # m
+PER_SHARE = 1e-3  # m; a share that still moves counts as a residual of this length per unit: settled within 1e-9
 ROUGH_ITERATIONS = 10  # the rough gap need not be exact, because the iteration only starts from it
 LEAST_STEP = 1 / 64  # chosen: a step that was shortened to a smaller share is accepted even if the residual grows
 
 
 @dataclass(frozen=True, slots=True)
 class LoadedMesh:
-    """The mesh, and the part of the gap that does not depend on the load.
+    """The mesh of a face, and the part of its gap that does not depend on the load.
 
     `fixed` [m] is this part at points of the face. The mesh force acts on the shafts at the `stations` [m].
     `scale` converts the force of the contacts into the transverse force that the shafts carry.
@@ -54,6 +58,10 @@ class LoadedMesh:
     def transmitted(self) -> float:
         """Transverse force F_bt on the shafts [N], without the load factors of the contacts."""
         return self.scale * self.force * self.prepared.path.plane.cos_base_helix
+
+    def sharing(self, share: float) -> "LoadedMesh":
+        """Return the mesh under a share of its force."""
+        return replace(self, prepared=self.prepared.sharing(share), force=share * self.force)
 
     def under(self, gap: FloatArray) -> Mesh:
         """Return the mesh whose gap is the fixed gap plus the gap [m] that the shafts cause at the stations."""
@@ -95,32 +103,34 @@ class LoadedMesh:
 class Equilibrium:
     """Equilibrium of mesh and shafts.
 
-    `gap` [m] is the gap that the shafts cause at the stations, minus the mean over the face; `mean_gap` [m] is this
-    mean. `loads` are the loads at the stations and on the hubs [N, N m]. `by_gap` [N/m] is the derivative of the force
-    at the stations with respect to an additional gap at the stations. This derivative includes the responses of both
-    mesh and shafts.
+    `gap` (faces, stations) [m] is the gap that the shafts cause, minus the mean over each face; `mean_gap` (faces,) [m]
+    are these means. `meshes` are the meshes of the faces under their shares of the force. `loads` are the loads at the
+    stations and on the hubs [N, N m]. `by_gap` [N/m] is the derivative of the force at the stations of all faces with
+    respect to an additional gap at the stations. This derivative includes the responses of both mesh and shafts.
     """
 
     gap: FloatArray
-    mean_gap: float
+    mean_gap: FloatArray
+    shares: FloatArray
+    meshes: tuple[LoadedMesh, ...]
     loads: FloatArray
     hubs: HubLoads
-    balance: LoadBalance
+    balances: tuple[LoadBalance, ...]
     by_gap: FloatArray
     iterations: int
     residual: float
 
 
-def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -> Equilibrium:
+def equilibrium(unit: Unit, meshes: tuple[LoadedMesh, ...], start: FloatArray | None = None) -> Equilibrium:
     """Find the gap at which mesh and shafts are in equilibrium, by Newton's iteration.
 
     Parameters
     ----------
     unit : Unit
         Shafts, bearings and couplings.
-    mesh : LoadedMesh
-        The mesh.
-    start : FloatArray of shape (stations,), optional
+    meshes : tuple of LoadedMesh
+        The mesh of every face, each under the whole force.
+    start : FloatArray of shape (faces, stations), optional
         Gap from which the iteration starts; by default the gap of the coarse mesh [m].
 
     Returns
@@ -131,20 +141,24 @@ def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -
     Raises
     ------
     NoSolution
-        `drive_train` with the residual [um] if the iteration does not converge.
+        `drive_train` with the residual [um] if the iteration does not converge, `helix_unloaded` if one helix of two
+        lifts off.
 
     Notes
     -----
     Eq. D11.
     """
-    hubs = free_hubs(unit, uniform_force(mesh.transmitted, unit.stations.size))
+    force = meshes[0].transmitted
+    hubs = free_hubs(unit, uniform_force(force, unit.stations.size, [1 / len(meshes)] * len(meshes)))
     if start is None:
-        start, hubs = _rough(unit, mesh.coarser, hubs)
-    state = _evaluate(unit, mesh, start, hubs, None)
+        start, hubs = _rough(unit, tuple(mesh.coarser for mesh in meshes), hubs)
+    state = _evaluate(unit, meshes, start, hubs, None)
     for iteration in range(1, ITERATIONS + 1):
         if state.size <= TOLERANCE:
-            return _equilibrium_at(mesh, state, iteration)
-        state = _advance(unit, mesh, state)
+            if unit.split is not None:
+                unit.split.check(state.answer.hubs.loads, force)
+            return _equilibrium_at(state, iteration)
+        state = _advance(unit, meshes, state)
     raise NoSolution(
         "drive_train",
         "the iteration between the deflections of the shafts and the loads of the mesh did not converge",
@@ -152,31 +166,62 @@ def equilibrium(unit: Unit, mesh: LoadedMesh, start: FloatArray | None = None) -
     )
 
 
-def _rough(unit: Unit, mesh: LoadedMesh, hubs: HubLoads) -> tuple[FloatArray, HubLoads]:
+def at_rest(unit: Unit, meshes: tuple[LoadedMesh, ...]) -> Equilibrium:
+    """Return the equilibrium while shafts and bearings do not yield: the shafts cause no gap."""
+    gap = np.zeros((len(meshes), unit.stations.size))
+    nothing = HubLoads(np.zeros(0), np.zeros(0), np.zeros((0, 0)))
+    state = _evaluate(unit, meshes, gap, nothing, None)
+    if unit.split is not None:
+        unit.split.check(nothing.loads, meshes[0].transmitted)
+    return Equilibrium(
+        gap=gap,
+        mean_gap=np.zeros(len(meshes)),
+        shares=state.shares,
+        meshes=state.meshes,
+        loads=state.force,
+        hubs=nothing,
+        balances=tuple(mesh.balance(own) for mesh, own in zip(state.meshes, gap, strict=True)),
+        by_gap=state.by_gap,
+        iterations=0,
+        residual=0.0,
+    )
+
+
+def shares_of(unit: Unit, hubs: HubLoads, force: float) -> FloatArray:
+    """Return the shares of the faces of the transverse force [N]."""
+    return np.ones(1) if unit.split is None else unit.split.shares(hubs.loads, force)
+
+
+def _rough(unit: Unit, meshes: tuple[LoadedMesh, ...], hubs: HubLoads) -> tuple[FloatArray, HubLoads]:
     """Return an approximate gap and the loads of the hubs, by an iteration with the coarse mesh.
 
     The iteration starts from a uniform load. This iteration may end before it has converged, because the iteration with
     the full mesh follows.
     """
-    count = unit.stations.size
-    answer = respond(unit, uniform_force(mesh.transmitted, count), hubs)
-    state = _evaluate(unit, mesh, remove_mean(answer.motion[:count]), answer.hubs, None)
+    count, force = unit.stations.size, meshes[0].transmitted
+    answer = respond(unit, uniform_force(force, count, list(shares_of(unit, hubs, force))), hubs)
+    state = _evaluate(unit, meshes, remove_mean(_of_faces(answer.motion, unit)), answer.hubs, None)
     for _ in range(ROUGH_ITERATIONS):
         if state.size <= ROUGH_TOLERANCE:
             break
-        state = _advance(unit, mesh, state)
+        state = _advance(unit, meshes, state)
     return state.gap, state.answer.hubs
 
 
-def _equilibrium_at(mesh: LoadedMesh, state: "_State", iterations: int) -> Equilibrium:
-    answer, by_gap = state.answer, mesh.scale * state.response.derivative
+def _equilibrium_at(state: "_State", iterations: int) -> Equilibrium:
+    answer = state.answer
     return Equilibrium(
         gap=state.gap,
-        mean_gap=face_mean(answer.motion[: state.gap.size]),
-        loads=np.concatenate([mesh.scale * state.response.force, answer.hubs.loads]),
+        mean_gap=state.mean_gap,
+        shares=state.shares,
+        meshes=state.meshes,
+        loads=np.concatenate([state.force, answer.hubs.loads]),
         hubs=answer.hubs,
-        balance=mesh.balance(state.gap, state.response),
-        by_gap=solve_linear(_matrix(mesh, state).T, by_gap.T).T,
+        balances=tuple(
+            mesh.balance(gap, response)
+            for mesh, gap, response in zip(state.meshes, state.gap, state.responses, strict=True)
+        ),
+        by_gap=solve_linear(_matrix(state).T, state.by_gap.T).T,
         iterations=iterations,
         residual=state.size,
     )
@@ -184,39 +229,89 @@ def _equilibrium_at(mesh: LoadedMesh, state: "_State", iterations: int) -> Equil
 
 @dataclass(frozen=True, slots=True)
 class _State:
+    """Gaps of the faces, the meshes and their responses under the shares, and the motion of the shafts.
+
+    `moved` is what the shares would still change.
+    """
+
     gap: FloatArray
-    response: FaceResponse
+    meshes: tuple[LoadedMesh, ...]
+    responses: tuple[FaceResponse, ...]
     answer: Yielding
+    shares: FloatArray
+    mean_gap: FloatArray
     residual: FloatArray
+    moved: float
 
     @property
     def size(self) -> float:
-        return float(np.max(np.abs(self.residual)))
+        return max(float(np.max(np.abs(self.residual))), PER_SHARE * self.moved)
+
+    @property
+    def force(self) -> FloatArray:
+        """Transverse force at the stations of all faces [N]."""
+        return _joined(self.meshes, self.responses)
+
+    @property
+    def by_gap(self) -> FloatArray:
+        """Derivative of the force with respect to the gap while the shafts are at rest: a block for every face."""
+        count = self.gap.shape[1]
+        blocks = np.zeros((self.gap.size, self.gap.size))
+        for k, (mesh, response) in enumerate(zip(self.meshes, self.responses, strict=True)):
+            blocks[k * count : (k + 1) * count, k * count : (k + 1) * count] = mesh.scale * response.derivative
+        return blocks
 
 
-def _evaluate(unit: Unit, mesh: LoadedMesh, gap: FloatArray, hubs: HubLoads, before: FaceResponse | None) -> _State:
-    response = mesh.respond(gap, before)
-    answer = respond(unit, mesh.scale * response.force, hubs)
-    return _State(gap, response, answer, gap - remove_mean(answer.motion[: gap.size]))
+def _evaluate(
+    unit: Unit, meshes: tuple[LoadedMesh, ...], gap: FloatArray, hubs: HubLoads, before: _State | None
+) -> _State:
+    force = meshes[0].transmitted
+    shares = shares_of(unit, hubs, force)
+    sharing = tuple(mesh.sharing(float(share)) for mesh, share in zip(meshes, shares, strict=True))
+    starts = [None] * len(meshes) if before is None else before.responses
+    responses = tuple(mesh.respond(own, start) for mesh, own, start in zip(sharing, gap, starts, strict=True))
+    answer = respond(unit, _joined(sharing, responses), hubs)
+    motion = _of_faces(answer.motion, unit)
+    return _State(
+        gap=gap,
+        meshes=sharing,
+        responses=responses,
+        answer=answer,
+        shares=shares,
+        mean_gap=np.array([face_mean(own) for own in motion]),
+        residual=gap - remove_mean(motion),
+        moved=float(np.max(np.abs(shares_of(unit, answer.hubs, force) - shares))),
+    )
 
 
-def _matrix(mesh: LoadedMesh, state: _State) -> FloatArray:
+def _joined(meshes: tuple[LoadedMesh, ...], responses: tuple[FaceResponse, ...]) -> FloatArray:
+    return np.concatenate([mesh.scale * each.force for mesh, each in zip(meshes, responses, strict=True)])
+
+
+def _of_faces(motion: FloatArray, unit: Unit) -> FloatArray:
+    """Return the motion of the stations (faces, stations) out of that of all ports."""
+    return motion[: unit.count].reshape(len(unit.frame.faces), unit.stations.size)
+
+
+def _matrix(state: _State) -> FloatArray:
     """Return the matrix I - D B of Newton's step; the docstring of this module explains D and B."""
-    by_force = _remove_mean_of_rows(state.answer.derivative)
-    return np.asarray(np.eye(state.gap.size) - mesh.scale * by_force @ state.response.derivative)
+    faces = len(state.meshes)
+    by_force = np.concatenate([_remove_mean_of_rows(rows) for rows in np.split(state.answer.derivative, faces)])
+    return np.asarray(np.eye(state.gap.size) - by_force @ state.by_gap)
 
 
-def _advance(unit: Unit, mesh: LoadedMesh, state: _State) -> _State:
+def _advance(unit: Unit, meshes: tuple[LoadedMesh, ...], state: _State) -> _State:
     """Return the state after Newton's step.
 
     The step is halved until two conditions are met: every part of the unit has a solution after the step, and the
     residual falls. If less than `LEAST_STEP` of the step is left, the residual need not fall, and a part without a
     solution raises NoSolution.
     """
-    step, share = remove_mean(solve_linear(_matrix(mesh, state), -state.residual)), 1.0
+    step = remove_mean(solve_linear(_matrix(state), -state.residual.ravel()).reshape(state.gap.shape))
+    share = 1.0
     while True:
         try:
-            following = _evaluate(unit, mesh, state.gap + share * step, state.answer.hubs, state.response)
+            following = _evaluate(unit, meshes, state.gap + share * step, state.answer.hubs, state)
         except NoSolution:
             if share < LEAST_STEP:
                 raise
@@ -226,16 +321,16 @@ def _advance(unit: Unit, mesh: LoadedMesh, state: _State) -> _State:
         share /= 2
 
 
-def uniform_force(force: float, stations: int) -> FloatArray:
-    """Spread a force [N] evenly over the face, and return the forces at the stations [N]."""
+def uniform_force(force: float, stations: int, shares: Sequence[float] = (1.0,)) -> FloatArray:
+    """Spread the shares of a force [N] evenly over their faces, and return the forces at the stations [N]."""
     weights = np.ones(stations)
     weights[0] = weights[-1] = 0.5
-    return force * weights / (stations - 1)
+    return np.concatenate([share * force * weights / (stations - 1) for share in shares])
 
 
 def remove_mean(gap: FloatArray) -> FloatArray:
-    """Return the gap minus its mean over the face."""
-    return gap - face_mean(gap)
+    """Return the gaps (faces, stations) minus their means over each face."""
+    return np.asarray(gap - np.array([[face_mean(own)] for own in gap]))
 
 
 def _remove_mean_of_rows(derivative: FloatArray) -> FloatArray:

@@ -69,7 +69,7 @@ def gas_heat(setup: PumpingSetup, pinion_speed: float) -> GasHeat:
     pumped = pumping.solve_on_slices(PumpingInputs(setup, pinion_speed))
     (at_pinion, pinion), (at_wheel, wheel) = _profile(pumped.pinion_spaces), _profile(pumped.wheel_spaces)
     spaces = (pumped.pinion_spaces, pumped.wheel_spaces)
-    powers = [0.0 if result is None else result.pumping_power for result in spaces]
+    powers = [0.0 if result is None else setup.gears.helices * result.pumping_power for result in spaces]
     return GasHeat(
         at_pinion, pinion, at_wheel, wheel, pumped.total.pumping_power, (powers[0], powers[1]), pumped.warnings
     )

@@ -13,21 +13,33 @@ Z_AXIS = np.array([0.0, 0.0, 1.0])  # along the shafts
 
 
 @dataclass(frozen=True, slots=True)
-class Frame:
-    """Directions and lever arms in X, Y, Z.
+class Face:
+    """The common face of a single-helical pair, or of one helix of a double-helical pair."""
 
-    `rotation` is +1 if the pinion turns counter-clockwise about Z, else -1. The face coordinate y begins at the end
-    that meshes first; `face_direction` is +1 if y runs along +Z, else -1. `radial` points from pinion to wheel.
-    `transverse_force` points in the direction of the transverse force on the pinion. `force` is the vector of the total
-    force on the pinion, divided by the transverse force. `arms` point from the axes of pinion and wheel to the pitch
-    point [m]. `down` (X, Y) points in the direction of gravity.
+    start: float  # Z of its lower end, m
+    width: float  # m
+    direction: float  # +1 if y, which begins at the end that meshes first, runs along +Z; else -1
+    hand: float  # of the pinion's helix: +1 right, -1 left
+    force: FloatArray  # total force on the pinion over the transverse force (X, Y, Z)
+
+    def positions(self, y: FloatArray) -> FloatArray:
+        """Return the positions Z [m] of points at distances y [m] from the end that meshes first."""
+        return self.start + y if self.direction > 0.0 else self.start + (self.width - y)
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """Directions and lever arms in X, Y, Z, and the faces in the order of Z.
+
+    `rotation` is +1 if the pinion turns counter-clockwise about Z, else -1. `radial` points from pinion to wheel.
+    `transverse_force` points in the direction of the transverse force on the pinion. `arms` point from the axes of
+    pinion and wheel to the pitch point [m]. `down` (X, Y) points in the direction of gravity.
     """
 
     rotation: float
-    face_direction: float
+    faces: tuple[Face, ...]
     radial: FloatArray
     transverse_force: FloatArray
-    force: FloatArray
     arms: tuple[FloatArray, FloatArray]
     down: FloatArray
 
@@ -35,12 +47,8 @@ class Frame:
         """Return the sense of rotation of the shaft of the pinion (0) or the wheel (1)."""
         return self.rotation if shaft == 0 else -self.rotation
 
-    def positions(self, face_start: float, face_width: float, y: FloatArray) -> FloatArray:
-        """Return the positions Z [m] of points on the face at distances y [m] from the end that meshes first."""
-        return face_start + y if self.face_direction > 0.0 else face_start + (face_width - y)
 
-
-def frame(arrangement: Arrangement, path: PathOfContact) -> Frame:
+def frame(arrangement: Arrangement, path: PathOfContact, face_start: float) -> Frame:
     """Compute the frame of reference of a unit.
 
     Parameters
@@ -49,6 +57,8 @@ def frame(arrangement: Arrangement, path: PathOfContact) -> Frame:
         Position and rotation of the unit.
     path : PathOfContact
         Path of contact of the gear pair of the unit.
+    face_start : float
+        Z of the lower end of the face, or of the first helix [m].
 
     Returns
     -------
@@ -61,7 +71,7 @@ def frame(arrangement: Arrangement, path: PathOfContact) -> Frame:
     the pinion's velocity at the pitch point C. The flank force on the pinion opposes this velocity:
     n_t = -(cos a_wt e_t + sin a_wt e_r). A helix adds the component -tan beta_b along y. The direction of y is
     -sigma h Z, where h is +1 for a right-hand pinion and -1 for a left-hand pinion. A spur pair meshes over the whole
-    face at once; for a spur pair h is always +1.
+    face at once; for a spur pair h is always +1. The second helix of a double-helical pair has the other hand.
     """
     pair = path.pair
     rotation = 1.0 if arrangement.rotation == "counterclockwise" else -1.0
@@ -70,13 +80,25 @@ def frame(arrangement: Arrangement, path: PathOfContact) -> Frame:
     tangential = rotation * np.cross(Z_AXIS, radial)
     angle = pair.working_pressure_angle
     transverse_force = -(cos(angle) * tangential + sin(angle) * radial)
-    face_direction = -rotation * hand
+    width = path.plane.face_width
+    faces = []
+    for helix in range(pair.inputs.helices):
+        own = hand if helix == 0 else -hand
+        direction = -rotation * own
+        faces.append(
+            Face(
+                start=face_start + helix * (width + (pair.inputs.gap_width or 0.0)),
+                width=width,
+                direction=direction,
+                hand=own,
+                force=transverse_force - path.plane.tan_base_helix * direction * Z_AXIS,
+            )
+        )
     return Frame(
         rotation=rotation,
-        face_direction=face_direction,
+        faces=tuple(faces),
         radial=radial,
         transverse_force=transverse_force,
-        force=transverse_force - path.plane.tan_base_helix * face_direction * Z_AXIS,
         arms=(pair.pinion_working_radius * radial, -pair.wheel_working_radius * radial),
         down=np.array([cos(arrangement.gravity_angle), sin(arrangement.gravity_angle)]),
     )

@@ -1,7 +1,8 @@
 """Shafts, bearings and couplings as one elastic system.
 
 Under given loads, the system yields the gap over the face and the motion of the coupling hubs. The stations along the
-face and the hubs are called ports. A force at a station loads both shafts with a force, a tilting moment and a torque.
+face (of double-helical gears: along both faces, one after the other) and the hubs are called ports. A force at a
+station loads both shafts with a force, a tilting moment and a torque.
 A holds the coefficients of these loads, C is the flexibility of the shafts, and Q holds the forces at the stations. The
 elastic gap is then A^T C A Q. The matrix A^T C A is symmetric and positive semidefinite, and Q^T A^T C A Q is twice the
 strain energy. If loads q act at the ports, the bearings carry L q. If the bearings are displaced by u, the ports move
@@ -14,6 +15,7 @@ import numpy as np
 
 from solvers.arrays import FloatArray
 from solvers.drive_train.inputs import BearingFilm, DriveTrainInputs, Shaft
+from solvers.drive_train.shafts.axial import AxialSplit, axial_split
 from solvers.drive_train.shafts.bearings import BearingState, bearing_state
 from solvers.drive_train.shafts.coupling_loads import LOADS, CouplingPort, coupling_port
 from solvers.drive_train.shafts.frame import Frame, frame
@@ -60,7 +62,9 @@ class ShaftPorts:
 
 @dataclass(frozen=True, slots=True)
 class Unit:
-    """The elastic system of a unit. Its ports are the stations along the face, and five motions per coupling.
+    """The elastic system of a unit. Its ports are the stations of all faces, and five motions per coupling.
+
+    `stations` [m] are the positions y on a face, the same on every face.
 
     The five motions are those of the shaft at the hub of the coupling: the displacements U and V along X and Y, both
     slopes, and the displacement along Z. The displacement along Z follows from the slopes at the thrust collar. The
@@ -69,7 +73,7 @@ class Unit:
     `elastic` (ports, ports) [m/N, ...] is the flexibility with the bearings at rest. `rest` is the motion of the ports
     under the constant loads. If loads q act at the ports, the bearings carry `bearing_loads` @ q + `bearing_rest` [N].
     The order is: X and Y at the pinion's first bearing, X and Y at the pinion's second bearing, then the same for the
-    wheel. `offsets` [m] are the offsets of the bores in the same order.
+    wheel. `offsets` [m] are the offsets of the bores in the same order. `split` is None for a single helix.
     """
 
     frame: Frame
@@ -82,6 +86,16 @@ class Unit:
     bearing_loads: FloatArray
     bearing_rest: FloatArray
     offsets: FloatArray
+    split: AxialSplit | None
+
+    @property
+    def count(self) -> int:
+        """Number of stations of all faces."""
+        return len(self.frame.faces) * self.stations.size
+
+    def on_face(self, face: int) -> slice:
+        """Return where the stations of a face stand among the ports."""
+        return slice(face * self.stations.size, (face + 1) * self.stations.size)
 
     def bearings(self, loads: FloatArray) -> list[BearingState]:
         """Return load, displacement and other results of the four bearings under given loads of the ports."""
@@ -127,7 +141,7 @@ def unit(inputs: DriveTrainInputs, path: PathOfContact) -> Unit:
     -----
     Eq. D3.
     """
-    directions, plane = frame(inputs.arrangement, path), path.plane
+    directions, plane = frame(inputs.arrangement, path, inputs.face_start), path.plane
     stations = np.linspace(0.0, plane.face_width, inputs.face_stations)
     load = inputs.mesh.distribution.load
     ratio = path.pair.pinion.teeth / path.pair.wheel.teeth
@@ -163,6 +177,7 @@ def unit(inputs: DriveTrainInputs, path: PathOfContact) -> Unit:
         bearing_loads=np.concatenate([share.reshape(4, -1) for share in shares]),
         bearing_rest=np.concatenate([rest.ravel() for rest in rests]),
         offsets=np.concatenate([offset.ravel() for offset in offsets]),
+        split=axial_split(inputs, directions, tuple(couplings)),
     )
 
 
@@ -195,24 +210,25 @@ def _shaft_ports(
     `index` is 0 for the shaft of the pinion and 1 for the shaft of the wheel.
     """
     shaft, name, sign = inputs.shafts[index], ("pinion", "wheel")[index], (1.0, -1.0)[index]
-    z = directions.positions(inputs.face_start, path.plane.face_width, stations)
+    on_faces = [(face, float(z)) for face in directions.faces for z in face.positions(stations)]
+    z = np.array([position for _, position in on_faces])
     hubs = [port.inputs.position for port in couplings if port.inputs.shaft == name]
     model = shaft_model(shaft, torque_position(inputs, index), np.concatenate([z, hubs]))
-    nodes, count = model.z.size, stations.size + LOADS * len(couplings)
+    nodes, count = model.z.size, z.size + LOADS * len(couplings)
     loads, torques = np.zeros((2, 2 * nodes, count)), np.zeros((nodes, count))
-    mesh_loads = np.zeros((2, 2 * nodes, stations.size))
-    arm, force = directions.arms[index], directions.force
+    mesh_loads = np.zeros((2, 2 * nodes, z.size))
+    arm = directions.arms[index]
     lever = float(directions.transverse_force @ np.cross([0.0, 0.0, 1.0], arm))
     weight = inputs.arrangement.gravity_factor * np.multiply.outer(directions.down, model.weight)
-    for k, position in enumerate(z):
+    for k, (face, position) in enumerate(on_faces):
         node = model.node(position)
-        mesh_loads[:, node, k] = sign * force[:2]
-        loads[:, nodes + node, k] = -sign * force[2] * arm[:2]
+        mesh_loads[:, node, k] = sign * face.force[:2]
+        loads[:, nodes + node, k] = -sign * face.force[2] * arm[:2]
         torques[node, k] = sign * lever
-    loads[:, :, : stations.size] += mesh_loads
+    loads[:, :, : z.size] += mesh_loads
     collar = _collar_loads(inputs, path, directions, model, z[-1], index)
     for k, port in enumerate(couplings):
-        first = stations.size + LOADS * k
+        first = z.size + LOADS * k
         if port.inputs.shaft == "pinion":
             loads[:, :, first + 4] = -collar
         if port.inputs.shaft == name:

@@ -6,6 +6,7 @@ bearing must not exceed half the ultimate rating of the bearing.
 """
 
 from solvers.drive_train.inputs import DriveTrainInputs
+from solvers.drive_train.shafts.axial import AxialSplit
 from solvers.drive_train.shafts.frame import Frame
 from solvers.gears.pair import PathOfContact
 from solvers.quantity import computed, quantity, record
@@ -18,8 +19,8 @@ USABLE = 0.5  # usable share of the ultimate rating
 class Thrust:
     """Axial forces on one shaft, positive towards +Z, and the bounds of the load on the thrust bearing.
 
-    The bounds are None if a thrust collar replaces the bearing. `customary` is the thrust of a coupling by a rule of
-    thumb.
+    The bounds are None if a thrust collar replaces the bearing, or if the shaft of a double-helical unit floats.
+    `customary` is the thrust of a coupling by a rule of thumb.
     """
 
     mesh: float = quantity("axial force of the mesh", "F_a", unit="n")
@@ -40,10 +41,10 @@ class Thrust:
         text=("axial force of mesh and pinion couplings on the collar; null without a collar"),
     )
     lower: float | None = quantity(
-        "least bearing thrust", "F_ax,min", API_613, unit="n", text="null where a collar holds the shaft"
+        "least bearing thrust", "F_ax,min", API_613, unit="n", text="null where a collar or the mesh holds the shaft"
     )
     upper: float | None = quantity(
-        "largest bearing thrust", "F_ax,max", API_613, unit="n", text="null where a collar holds the shaft"
+        "largest bearing thrust", "F_ax,max", API_613, unit="n", text="null where a collar or the mesh holds the shaft"
     )
     use: float | None = quantity(
         "use of the thrust bearing",
@@ -67,7 +68,7 @@ class Thrust:
 
 
 def mesh_thrust(inputs: DriveTrainInputs, path: PathOfContact, directions: Frame) -> float:
-    """Compute the axial force of the mesh on the pinion.
+    """Compute the axial force of the mesh on the pinion of a single-helical unit.
 
     Parameters
     ----------
@@ -89,7 +90,7 @@ def mesh_thrust(inputs: DriveTrainInputs, path: PathOfContact, directions: Frame
     pinion, F_bt is the transverse force, and beta_b is the base helix angle.
     """
     tangential = inputs.mesh.distribution.load.torque / path.pair.pinion.base_radius
-    return float(tangential * directions.force[2])
+    return float(tangential * directions.faces[0].force[2])
 
 
 def thrust_budget(
@@ -124,24 +125,56 @@ def thrust_budget(
     Eq. D14. A thrust collar transfers the thrust of the pinion's couplings to the wheel's thrust bearing.
     """
     pinion, wheel = limits
-    collared = inputs.collar_radius is not None
-    load = inputs.mesh.distribution
-    ratio = load.gears.wheel.teeth / load.gears.pinion.teeth
-    torques = (load.load.torque, load.load.torque * ratio)
-    bounds = (
+    bounds: tuple[_Bounds, _Bounds] = (
         ((None, None), (-pinion - wheel, pinion + wheel))
-        if collared
+        if inputs.collar_radius is not None
         else (
             (mesh - pinion, mesh + pinion),
             (-mesh - wheel, -mesh + wheel),
         )
     )
+    return _thrusts(inputs, (mesh, -mesh), couplings, limits, diameters, bounds)
+
+
+def split_thrust_budget(
+    inputs: DriveTrainInputs,
+    split: AxialSplit,
+    force: float,
+    couplings: tuple[float, float],
+    limits: tuple[float, float],
+    diameters: tuple[float | None, float | None],
+) -> tuple[Thrust, Thrust]:
+    """Return the axial forces on the shafts of a double-helical unit (Eq. D19); the parameters of `thrust_budget`.
+
+    `force` [N] is the axial force on the floating shaft, which the mesh passes on to the other shaft's thrust bearing.
+    """
+    floating = split.shaft
+    mesh = (-force, force) if floating == 0 else (force, -force)
+    held = (split.external - sum(limits), split.external + sum(limits))
+    bounds = ((None, None), held) if floating == 0 else (held, (None, None))
+    return _thrusts(inputs, mesh, couplings, limits, diameters, bounds)
+
+
+_Bounds = tuple[float, float] | tuple[None, None]
+
+
+def _thrusts(
+    inputs: DriveTrainInputs,
+    mesh: tuple[float, float],
+    couplings: tuple[float, float],
+    limits: tuple[float, float],
+    diameters: tuple[float | None, float | None],
+    bounds: tuple[_Bounds, _Bounds],
+) -> tuple[Thrust, Thrust]:
+    load, collared = inputs.mesh.distribution, inputs.collar_radius is not None
+    ratio = load.gears.wheel.teeth / load.gears.pinion.teeth
+    torques = (load.load.torque, load.load.torque * ratio)
     thrusts = [
         Thrust(
-            mesh=sign * mesh,
+            mesh=mesh[i],
             coupling=couplings[i],
             coupling_limit=limits[i],
-            collar=-sign * (mesh + couplings[0]) if collared else None,
+            collar=-sign * (mesh[0] + couplings[0]) if collared else None,
             lower=lower,
             upper=upper,
             use=_use(lower, upper, inputs.shafts[i].ultimate_thrust),

@@ -63,7 +63,7 @@ def bulk_temperature(
     Eq. M11 of the chapter on micropitting; formula 84 of ISO/TR 15144-1. `given`: the pair and its load; only the
     transmitted power is used.
     """
-    power = given.load.transmitted_power * 1e-3
+    power = given.load.helix_share * given.load.transmitted_power * 1e-3
     area = path.pair.centre_distance * given.gears.face_width / MM**2
     rise = 7400.0 * (power * friction * loss_factor(path) / area) ** 0.72
     return float(oil_temperature + rise * OIL_SUPPLY_FACTOR[supply] / 1.2)

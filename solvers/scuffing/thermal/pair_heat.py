@@ -61,7 +61,7 @@ def gear_geometries(given: LoadDistributionInputs, path: PathOfContact) -> tuple
     pinion, wheel = (
         GearGeometry(
             teeth=gear.teeth,
-            face_width=given.gears.face_width,
+            face_width=given.gears.toothed_width,
             module=given.gears.normal_module,
             reference_radius=gear.reference_radius,
             tip_radius=gear.tip_radius,
@@ -79,11 +79,13 @@ def mesh_heat(inputs: ScuffingInputs, distribution: LoadDistribution) -> MeshHea
     """Return the friction of the mesh in the form that the heat balance uses.
 
     In the heat balance, the friction follows the viscosity of the oil, and therefore the temperature. A coefficient of
-    friction that the user gives is constant, and does not size the oil flow.
+    friction that the user gives is constant, and does not size the oil flow. Of double-helical gears both helices count
+    as loaded like this one: no heat passes through the gap, which is the upper bound for the hotter helix.
     """
-    power, by_formula = distribution.friction_loss.power or 0.0, None
+    helices = inputs.distribution.gears.helices
+    power, by_formula = helices * (distribution.friction_loss.power or 0.0), None
     if inputs.friction == "given" and power > 0.0:
-        by_formula = friction_by_formula(inputs, distribution).power
+        by_formula = helices * (friction_by_formula(inputs, distribution).power or 0.0)
     return MeshHeat(
         power=power,
         temperature=inputs.temperatures.oil,

@@ -54,7 +54,7 @@ def mean_friction(inputs: LoadDistributionInputs, path: PathOfContact, factor: f
     K_Halpha is 1.
     """
     load, width = inputs.load, inputs.gears.face_width
-    line_load = face_load_factor * load.contact_factor * load.torque / path.pair.pinion.reference_radius / width
+    line_load = face_load_factor * load.contact_torque / path.pair.pinion.reference_radius / width
     return 0.060 * _load_and_speed(inputs, path, line_load) * factor * _rough(inputs)
 
 
@@ -67,7 +67,7 @@ def loss_friction(inputs: LoadDistributionInputs, path: PathOfContact, viscosity
     the pitch point. X_L is 1 for mineral oils, 0.8 for polyalphaolefins and 0.7 for polyglycols; for esters 0.8 is
     assumed.
     """
-    line_load = inputs.load.torque / path.pair.pinion.base_radius / inputs.gears.face_width
+    line_load = inputs.load.helix_torque / path.pair.pinion.base_radius / inputs.gears.face_width
     oil = OIL_KIND_LOSS_FACTOR[kind] * float((viscosity * 1e3) ** -0.05)
     return 0.048 * _load_and_speed(inputs, path, line_load) * oil * _rough(inputs)
 

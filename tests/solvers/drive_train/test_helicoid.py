@@ -58,7 +58,7 @@ def flanks(standing: Arrangement, reach: float) -> tuple[FloatArray, Surface, Su
 
     At the end y = 0 of the face, both flanks touch at the pinion's roll length `reach` [m].
     """
-    pair, own = PATH.pair, frame(standing, PATH)
+    pair, own = PATH.pair, frame(standing, PATH, 0.0)
     onward = -own.transverse_force
     point = own.arms[0] + (reach - PATH.pitch_point) * onward
     centre = pair.centre_distance * own.radial
@@ -86,26 +86,26 @@ def beyond(surface: Surface, origin: FloatArray, onward: FloatArray, along: floa
 @pytest.mark.parametrize("standing", STANDINGS)
 @pytest.mark.parametrize("share", [0.05, 0.5, 0.95])
 def test_the_force_is_normal_to_the_flanks(standing: Arrangement, share: float) -> None:
-    own = frame(standing, PATH)
+    own = frame(standing, PATH, 0.0)
     step = 1e-5
     for flank in flanks(standing, PATH.start + share * PATH.length)[1:]:
         by_roll = flank(step, 0.0) - flank(-step, 0.0)
         by_face = flank(0.0, step) - flank(0.0, -step)
         normal = np.cross(by_roll, by_face)
         normal *= np.sign(normal @ own.transverse_force) / np.linalg.norm(normal)
-        assert normal / cos(PATH.pair.base_helix_angle) == pytest.approx(own.force, abs=1e-6)
+        assert normal / cos(PATH.pair.base_helix_angle) == pytest.approx(own.faces[0].force, abs=1e-6)
 
 
 @pytest.mark.parametrize("standing", STANDINGS)
 def test_the_face_begins_at_the_end_that_is_ahead(standing: Arrangement) -> None:
     """At the distance y from the end that meshes first, both flanks lie back by y tan beta_b and still touch."""
-    own = frame(standing, PATH)
+    own = frame(standing, PATH, 0.0)
     onward, pinion, wheel = flanks(standing, PATH.pitch_point)
     centre = PATH.pair.centre_distance * own.radial
     for y in (0.05, 0.2):
         back = -y * PATH.plane.tan_base_helix
-        assert beyond(pinion, np.zeros(3), onward, own.face_direction * y) == pytest.approx(back, abs=1e-10)
-        assert beyond(wheel, centre, onward, own.face_direction * y) == pytest.approx(back, abs=1e-10)
+        assert beyond(pinion, np.zeros(3), onward, own.faces[0].direction * y) == pytest.approx(back, abs=1e-10)
+        assert beyond(wheel, centre, onward, own.faces[0].direction * y) == pytest.approx(back, abs=1e-10)
 
 
 @pytest.mark.parametrize("standing", STANDINGS)
@@ -119,13 +119,13 @@ def test_growth_by_heat_closes_the_gap_that_the_thermal_lead_says(
     heat = Heat(0.0, pinion_bulk=300.0 + rises[0], wheel_bulk=300.0 + rises[1], reference=300.0)
     y = np.linspace(0.0, PATH.plane.face_width, 11)
     found = thermal_lead(replace(UNIT, heat=heat, arrangement=standing), PATH, y)
-    own = frame(standing, PATH)
+    own = frame(standing, PATH, 0.0)
     centre = PATH.pair.centre_distance * own.radial
     gaps, said = [], []
     for along_path, along_face in PLACES:
         x, width = along_path * PATH.length, along_face * PATH.plane.face_width
         onward, pinion, wheel = flanks(standing, PATH.start + x + width * PATH.plane.tan_base_helix)
-        place, back = own.face_direction * width, -width * PATH.plane.tan_base_helix
+        place, back = own.faces[0].direction * width, -width * PATH.plane.tan_base_helix
         closer = beyond(pinion, np.zeros(3), onward, place, EXPANSION * rises[0]) - back
         closer -= beyond(wheel, centre, onward, place, EXPANSION * rises[1]) - back
         gaps.append(-closer)

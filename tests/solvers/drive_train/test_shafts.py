@@ -337,8 +337,8 @@ def _strain_energy(system: Unit, force: FloatArray) -> float:
 def test_reversing_the_hand_reverses_the_tilting_moment_alone() -> None:
     inputs = replace(turbo_gear(), effects=Effects(coupling=False, thermal=False))
     right, left = (unit_of(changed(inputs, {"arrangement.hand": hand})) for hand in ("right", "left"))
-    assert left.frame.force[2] == -right.frame.force[2]
-    assert left.frame.face_direction == -right.frame.face_direction
+    assert left.frame.faces[0].force[2] == -right.frame.faces[0].force[2]
+    assert left.frame.faces[0].direction == -right.frame.faces[0].direction
     for one, other in zip(right.shafts, left.shafts, strict=True):
         nodes = one.model.z.size
         assert other.loads[:, :nodes] == pytest.approx(one.loads[:, :nodes, ::-1], abs=1e-15)

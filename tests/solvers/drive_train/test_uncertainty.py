@@ -113,7 +113,7 @@ def test_gap_at_a_station_moves_the_load_as_the_derivative_says() -> None:
     prepared = prepare(inputs)
     found = settle(inputs, prepared)
     assert int(np.argmax(outcome_of(inputs, prepared, found).shares)) == 60
-    by_gap = found.by_gap[-1] / uniform_force(prepared.mesh.transmitted, 11)[-1]
+    by_gap = found.by_gap[-1] / uniform_force(prepared.meshes[0].transmitted, 11)[-1]
     step, place = 1e-8, 4
     position = tuple(float(y) for y in prepared.unit.stations)
     hat = tuple(step * (k == place) for k in range(11))
