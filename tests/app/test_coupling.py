@@ -214,7 +214,7 @@ def test_assumptions_state_the_value_used_and_the_friction_law(post: Post) -> No
     values, reasons = assumptions(found), {each["field"]: each["reason"] for each in found["assumptions"]}
     assert (values["coupling.face_width_mm"], values["coupling.tooth_height_mm"]) == (24.0, 6.0)
     assert reasons["friction.coefficient"].startswith("from the friction regime; our law")
-    assert "calibration" in reasons[MIXED_VELOCITY]
+    assert "calibrated so that" in reasons[MIXED_VELOCITY]
 
 
 def test_film_angle_and_inlet_length_reach_the_film(post: Post) -> None:
