@@ -8,6 +8,7 @@ from app.manual import chapters
 
 _MARKUP = (
     (re.compile(r"<!--.*?-->|<a id=.*?</a>|^\|[-| ]+\|$", re.MULTILINE | re.DOTALL), " "),
+    (re.compile(r"^Code: .*?(?:\n\n|\Z)", re.MULTILINE | re.DOTALL), " "),
     (re.compile(r"!?\[([^\]]*)\]\([^)]*\)"), r"\1"),
     (re.compile(r"\$\$.*?\\tag\{([^}]+)\}\s*\$\$", re.DOTALL), r" (\1) "),
     (re.compile(r"\$\$.*?\$\$", re.DOTALL), " "),

@@ -1,18 +1,14 @@
-"""Load balance over the contact lines: the approach TE of the flanks at every roll position, and the loads at this TE.
+"""Load balance over the contact lines: the transmission error TE at every roll position, and the loads at this TE.
 
-TE is the transmission error. Every line is cut into slices of the length dl = dy / cos beta_b. The line load, which is
-the load per length of contact line, is computed at the middle of every slice. This load is w = k max(TE - Delta, 0),
-where k is the stiffness of a pair of teeth and Delta is the gap. The sum of w dl over the slices is F_bn (Eq. 9 with
-one TE for all points of a roll position).
+Every line is cut into slices of the length dl = dy / cos beta_b with the line load w = k max(TE - Delta, 0) at the
+middle, where k is the stiffness of a pair of teeth and Delta the gap. The sum of w dl is F_bn (Eq. 9 with one TE for
+all points of a roll position).
 
-If a line is loaded over a part of its length only, only the loaded part is cut into slices. This part depends on TE.
-The cutting and the balance are therefore repeated until TE no longer changes. The slices then cover exactly the
-contact, even if the contact is small. If TE is not linear between two roll positions, further roll positions are added
-between these two.
+Only the loaded part of a line is cut. It depends on TE, so cutting and balance are repeated until TE stays. Where TE is
+not linear between two roll positions, more are added.
 
-The paper's iteration (Eq. 10) converges only if the mean relief in contact is below TE/2. This module uses Newton's
-method instead, because the force F(TE) is convex and increasing. With linear contact, Newton's method reaches the exact
-solution in a finite number of steps.
+The paper's iteration (Eq. 10) converges only if the mean relief in contact is below TE/2. F(TE) is convex and
+increasing, so Newton's method always converges, with linear contact in a finite number of steps.
 """
 
 from dataclasses import dataclass, replace

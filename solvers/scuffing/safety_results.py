@@ -175,15 +175,11 @@ class ContactTemperature:
 class Film:
     """Thinnest film [m], its place and its ratio to the roughness.
 
-    All values are None if no point is loaded, or if the loaded path reaches a base circle. `dowson_higginson_min` is
-    the thinnest film over the flank by the formula of Dowson and Higginson. `thermal_ehl_min` is the thinnest film by
-    thermal EHL at the places of the flank that decide. If an unsolved place may have the thinnest film, all values
-    except `dowson_higginson_min` are None.
+    All values are None if no point is loaded or the loaded path reaches a base circle. `thermal_ehl_min` is that of the
+    decisive places; if an unsolved place may have the thinnest film, all but `dowson_higginson_min` are None.
 
-    Place, ratio and regime belong to one of the two films. If `thermal_ehl_min` is stated, they belong to
-    `thermal_ehl_min`, even if `dowson_higginson_min` is thinner. Otherwise they belong to `dowson_higginson_min`.
-    `min_at_profile` and `min_at_face` [m] are the place of this film. `min_at_psi` is the place of the thinnest film on
-    the feature line.
+    Place, ratio and regime belong to `thermal_ehl_min` where it is stated, even if the other is thinner, else to
+    `dowson_higginson_min`. `min_at_psi` is the place of the thinnest film on the feature line.
     """
 
     dowson_higginson_min: float | None = quantity(
@@ -326,19 +322,14 @@ class ThermalPath:
 
 @record
 class ScuffingPath:
-    """Results along a line from A to E: Blok's flash temperature [K], film [m] and ratio of the film to the roughness.
+    """Results along a line from A to E: Blok's flash temperature [K], film [m] and its ratio to the roughness.
 
-    The feature line is the diagonal y = psi b; the profile line lies at the face position of the hottest place. The
-    points of a line are equidistant, except for a few added points: on the feature line the points with the largest
-    flash temperature by Blok and with the thinnest film by Dowson and Higginson, on the profile line the hottest place.
+    The feature line is the diagonal y = psi b; the profile line lies at the face position of the hottest place. Points
+    are equidistant, with the extremes of flash temperature and film by formula added.
 
-    A point without load or motion has the status "unloaded"; its film and its ratio are NaN, and its flash temperature
-    by Blok is 0. A loaded point at which the reduced radius vanishes has the status "refused"; all its values are NaN.
-
-    `thermal` is the thermal EHL solution, or None if only the closed-form formulas are evaluated. A point that the
-    thermal EHL solver accepts but cannot solve has the status "no_solution". A point that this solver does not accept
-    has the status "refused". The ratio of the film to the roughness is computed from the film by thermal EHL, or from
-    the film by Dowson and Higginson if `thermal` is None.
+    A point without load or motion is "unloaded" (film NaN, flash temperature 0); where the reduced radius vanishes or
+    thermal EHL does not accept a point, it is "refused"; what thermal EHL cannot solve is "no_solution". `thermal` is
+    None without thermal EHL; the ratio then belongs to the film by Dowson and Higginson.
     """
 
     psi: FloatArray = quantity(

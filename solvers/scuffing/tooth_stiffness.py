@@ -302,14 +302,10 @@ def _member(gear: Gear, section: Gear, roll_length: FloatArray, material: Solid)
 def _half_space(path: PathOfContact, x: FloatArray, members: list[Member]) -> tuple[FloatArray, float, float]:
     """Return offset and slope [1/Pa] of the half-space compliance, and the contact's least contribution to omega.
 
-    Johnson (1985) and Weber state the compliance of the contact between two half-spaces:
-    delta_H / w = sum_i (1 - nu_i^2)/(pi E_i) [2 ln(2 d_i / b_H) - nu_i/(1 - nu_i)],  b_H^2 = 8 w R_n/(pi E').
-    Here b_H is the half width of the contact, R_n is the reduced radius, E' is the reduced modulus, and d_i is the
-    `depth` of the load point of gear i in the transverse section (see `LoadPoints`).
-    This compliance equals offset - slope ln w, where w is the load.
-    The contact contributes offset / slope - ln w to omega. The docstring of this module defines omega. The contribution
-    decreases as the load increases. The contribution is least if b_H is so large that d_i is `SHALLOWEST` b_H for both
-    gears.
+    The compliance between two half-spaces (Johnson 1985, Weber) equals offset - slope ln w:
+    delta_H / w = sum_i (1 - nu_i^2)/(pi E_i) [2 ln(2 d_i / b_H) - nu_i/(1 - nu_i)],  b_H^2 = 8 w R_n/(pi E'),
+    with the half width b_H and the `depth` d_i of the load point of gear i (see `LoadPoints`). It contributes
+    offset / slope - ln w to omega, least where b_H is so large that d_i is `SHALLOWEST` b_H for both gears.
     """
     modulus = reduced_modulus(members[0].material, members[1].material)
     radius = np.maximum(reduced_radius(path.plane, x), LEAST_RADIUS * path.pair.inputs.normal_module)

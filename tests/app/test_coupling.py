@@ -213,8 +213,8 @@ def test_assumptions_state_the_value_used_and_the_friction_law(post: Post) -> No
     found = solved(post)
     values, reasons = assumptions(found), {each["field"]: each["reason"] for each in found["assumptions"]}
     assert (values["coupling.face_width_mm"], values["coupling.tooth_height_mm"]) == (24.0, 6.0)
-    assert reasons["friction.coefficient"].startswith("no coefficient given: our law of the friction regime")
-    assert "calibration" in reasons[MIXED_VELOCITY]
+    assert reasons["friction.coefficient"].startswith("from the friction regime; our law")
+    assert "calibrated so that" in reasons[MIXED_VELOCITY]
 
 
 def test_film_angle_and_inlet_length_reach_the_film(post: Post) -> None:

@@ -98,7 +98,7 @@ def test_without_stage_and_ratio_the_assumption_says_what_is_missing() -> None:
     assert local["least_ratio"] > 0.0
     assert (local["safety"], local["verdict"], found["micropitting"]["permissible_ratio"]) == (None, None, None)
     (missing,) = (each for each in found["assumptions"] if each["field"] == "micropitting.failure_load_stage")
-    assert "neither failure load stage nor permissible ratio" in missing["reason"]
+    assert "no failure load stage and no permissible film thickness" in missing["reason"]
 
 
 def test_a_given_ratio_takes_the_place_of_the_test() -> None:

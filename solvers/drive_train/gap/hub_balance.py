@@ -183,13 +183,10 @@ def _yielding(unit: Unit, count: int, state: _State) -> Yielding:
 def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
     """Follow the tilts of the hubs while a growing fraction of the coupling loads acts on the shafts.
 
-    The path begins at `free`, the hubs without coupling loads. If friction falls with the sliding velocity, a hub can
-    jump between sliding and sticking. To follow such a jump, the fraction must decrease for a while. The fraction is
-    therefore an unknown, and the length of a step along the path is given (pseudo-arclength continuation, Allgower and
-    Georg 2003, chapter 2). A step along the tangent of the path is corrected by Newton's iteration.
-
-    If the fraction reaches 1, interpolate the tilts at a fraction of 1 between the last two points of the path, and
-    return the hubs at these tilts. Otherwise return the hubs at the last point of the path.
+    The path begins at `free`, the hubs without coupling loads, and ends at the fraction 1 (interpolated) or at the last
+    point reached. If friction falls with the sliding velocity, a hub can jump between sliding and sticking; to follow
+    it the fraction must decrease for a while. So it is an unknown, and the length of a step along the path is given
+    (pseudo-arclength continuation, Allgower and Georg 2003, chapter 2).
     """
     share, state, length = 0.0, _evaluate(unit, force, free, 0.0), LONGEST
     direction = np.append(np.zeros(free.tilts.size), 1.0)

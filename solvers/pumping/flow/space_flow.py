@@ -153,16 +153,13 @@ class EndFlow:
 class SpaceFlow:
     """One stroke of one tooth space.
 
-    `pressure` [Pa], `mach` and `stagnation_temperature` [K] are fields of shape (angles, positions). `angle`
-    [rad] holds the angles of the gear to which the space belongs, and `position` [m] holds the positions on the face.
-    Curves over the face have the shape (positions,). `mean_temperature` and `mean_stagnation_temperature` [K] are means
-    over the stroke. `peak_pressure` and `lowest_pressure` [Pa] are extremes over the stroke. `peak_mach` is the largest
-    Mach number over the stroke within each slice; in the pocket chain, `peak_mach` is 0.
+    `pressure` [Pa], `mach` and `stagnation_temperature` [K] have the shape (angles, positions) over the `angle` [rad]
+    of the gear and the `position` [m] on the face; curves over the face have (positions,). Means and extremes are those
+    over the stroke; `peak_mach` is 0 in the pocket chain.
 
-    `demand` has the Mach numbers at the ends of the face. `exit_demand` and `inflow_demand` are the largest Mach
-    numbers of outflow and inflow, at the ends of the face and at grooves. `work` [J] is the work done on the gas,
-    computed with the pressure minus the ambient pressure. `mass_error` and `energy_error` are relative errors of
-    conservation. All temperatures are None if the flow model gives no temperatures.
+    `demand` has the Mach numbers at the ends of the face; `exit_demand` and `inflow_demand` are the largest at ends and
+    grooves. `work` [J] counts the pressure above ambient. Errors of conservation are relative. Temperatures are None if
+    the flow model gives none.
     """
 
     angle: FloatArray

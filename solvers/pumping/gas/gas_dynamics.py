@@ -118,20 +118,15 @@ def march(gas: Gas, duct: Duct, cells: Cells, angles: FloatArray, record: Record
 
 @inner_kernel
 def _taking_part(gas: Gas, duct: Duct, angle: float, turn: float) -> tuple[int, int]:
-    """Find the range of cells that take part in a step.
+    """Find the first cell that takes part in a step from `angle` over `turn` [rad], and the cell after the last.
 
-    In the step, the gear turns by `turn` [rad], starting at `angle` [rad]. Returns the first cell of the range, and
-    the cell after the last cell of the range.
-
-    A cell takes part while the stroke is under way at the centre of the cell. The first and the last cell of the duct
-    also take part while the stroke is under way at the end of the duct, so that gas can leave through an end as long as
-    the end is open. If a cell is in its stroke during only a part of the step, the leakage and the mean temperatures of
-    the cell count only for this part.
+    A cell takes part while the stroke is under way at its centre; the outer cells also while it is at the end of the
+    duct, so that gas can leave as long as the end is open. Leakage and mean temperatures of a cell count only for the
+    part of the step in its stroke.
 
     If the stroke runs along the face faster than sound, a cell takes part as soon as the stroke is less than `_AHEAD`
-    cell widths away. In reality, no wave reaches the border between the active and the idle cells. On a grid, however,
-    waves spread over a few cells. If cells did not take part early, waves could reach the border and change the state
-    with which the next cells begin. Different sequences of steps could then lead to two different flows.
+    cell widths away. No real wave reaches the border to the idle cells, but on a grid waves spread over a few cells and
+    would change the state with which the next ones begin; two sequences of steps could lead to two flows.
     """
     low, high, rear = 0, 0, duct.cells - 1
     early = _AHEAD * duct.lag * duct.width if duct.speed >= duct.lag * gas.sound_speed else 0.0
@@ -231,17 +226,11 @@ def _record_ends(
 def _record_cells(
     gas: Gas, duct: Duct, cells: Cells, record: Record, low: int, high: int, angle: float, turn: float, longest: float
 ) -> None:
-    """Record wall losses, work, mean temperatures and extremes of the active cells.
+    """Record wall losses, work, mean temperatures (trapezoidal rule) and extremes of the active cells.
 
-    Mean temperatures follow from the trapezoidal rule. The extremes leave out two kinds of cells:
-
-    - A cell whose stroke ends within the step. For the rest of the step, gas flows into this cell but no longer out
-      of it.
-    - A cell whose stroke has just begun. The leakage of this cell settles within a fraction of a step, so the implicit
-      scheme of second order overshoots.
-
-    A stroke has just begun if the gear has turned by less than `_UNSETTLED` times `longest` since the stroke began.
-    `longest` [rad] is the largest permitted turn of a step.
+    The extremes leave out a cell whose stroke ends within the step (gas then flows in but no longer out), and one whose
+    stroke began less than `_UNSETTLED` times `longest` ago, the largest permitted turn [rad]: its leakage settles
+    within a fraction of a step, so that the implicit scheme overshoots.
     """
     old, new, loss, dt = cells.state, cells.next_state, cells.loss, turn / duct.speed
     for i in range(low, high):

@@ -52,17 +52,14 @@ LEAK = floats("latest", "halfway", "growth")
 
 
 class Cells(NamedTuple):
-    """Arrays with the gas in a duct, used by all kernels of a time step.
+    """Arrays with the gas in a duct, used by all kernels of a time step; in brackets their types of records.
 
-    `face_area` and `flux` have one value per face, (cells + 1,). `ends` has one value per end of the duct, (2,). All
-    other arrays have one value per cell, (cells,). The names in brackets are types of records.
+    Shapes: (cells + 1,) for `face_area` and `flux`, (2,) for `ends`, otherwise (cells,).
 
-    `content` (CONSERVED), `state` (STATE) and `walls` (WALL) hold the values at the start of the step. `next_content`,
-    `next_state` and `next_walls` hold the values at the end of the step. `half` (STATE), `face_area` [m^2] and `flux`
-    (CONSERVED) hold the values in the middle of the step. `slope` (STATE) is the change of the state over a cell.
-
-    `loss` (LOSS), `ends` (END) and `leak` (LEAK) belong to the whole step. `share` is the share of the step in which
-    the stroke is under way at the centre of a cell. Outside the stroke the walls stand still, and nothing leaks.
+    `content` (CONSERVED), `state` (STATE) and `walls` (WALL) are those at the start of the step, `next_...` those at
+    the end; `half` (STATE), `face_area` [m^2] and `flux` (CONSERVED) those in the middle. `slope` (STATE) is the change
+    over a cell. `loss` (LOSS), `ends` (END) and `leak` (LEAK) belong to the whole step. `share` is the share of the
+    step in which a cell's centre is in its stroke; outside it walls stand still and nothing leaks.
     """
 
     content: RecordArray
