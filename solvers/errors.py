@@ -32,8 +32,14 @@ class InvalidInput(SolverError):
 
 
 class NoSolution(SolverError):
-    """An iteration without convergence; `residuals`, by name, are those where it stopped."""
+    """An iteration without convergence; `residuals`, by name, are those where it stopped.
 
-    def __init__(self, code: str, message: str, residuals: dict[str, float] | None = None) -> None:
-        super().__init__(code, message, residuals)
+    `field` is the dotted name of the input to change, where one input alone is the cause.
+    """
+
+    def __init__(
+        self, code: str, message: str, residuals: dict[str, float] | None = None, field: str | None = None
+    ) -> None:
+        super().__init__(code, message, residuals, field)
         self.residuals = residuals or {}
+        self.field = field

@@ -60,7 +60,12 @@ def coupling_results(
         sizes = (hypot(tilts[0], tilts[1]), hypot(tilts[2], tilts[3]))
         held = None
         if unit.split is not None:
-            held = min(held_thrust(port, hub.friction_coefficient, size) for hub, size in zip(pair, sizes, strict=True))
+            holding = [
+                held_thrust(port, hub.friction_coefficient, size) * hub.thrust_limit
+                for hub, size in zip(pair, sizes, strict=True)
+            ]
+            limit = min(hub.thrust_limit for hub in pair)
+            held = min(holding) / limit if limit > 0.0 else 0.0
         results.append(
             CouplingResult(
                 tilt=sizes,

@@ -15,6 +15,7 @@ from solvers.drive_train.shafts.coupling_loads import runout_thrust
 from solvers.scuffing.mesh_results import period_mean
 from solvers.scuffing.micropitting.wear import wear_asked_for
 from solvers.scuffing.model import distribution
+from solvers.scuffing.modification import misalignment_slope
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety_results import BulkInForce
 from solvers.scuffing.thermal.bulk import BulkRule, Flanks
@@ -101,8 +102,9 @@ def decisive(faces: list[LoadedFace]) -> int:
 
     def severity(face: LoadedFace) -> tuple[float, float, float]:
         safety, load = face.flank.safety, face.result.load
-        factor = None if safety is None else safety.minimum
-        return -np.inf if factor is None else -factor, load.max_pressure or 0.0, load.max_line_load
+        known = [] if safety is None else [safety.minimum, safety.blok_flank, safety.blok_feature]
+        least = min((factor for factor in known if factor is not None), default=np.inf)
+        return -least, load.max_pressure or 0.0, load.max_line_load
 
     return max(range(len(faces)), key=lambda face: severity(faces[face]))
 
@@ -127,8 +129,13 @@ def axial_balance(
     bounds = [
         min(max((1.0 + split.difference(split.external + sign * limit, force)) / 2, 0.0), 1.0) for sign in (-1.0, 1.0)
     ]
+    given, gears = inputs.mesh.distribution.modifications, inputs.mesh.distribution.gears
+    working = prepared.path.pair.working_pressure_angle
+    slope = misalignment_slope(given.in_plane_deviation, given.out_of_plane_deviation, working)
+    reach = system.frame.faces[0].direction * slope * (gears.total_width - gears.face_width) / (2 * gears.face_width)
+    tilts = (-reach, reach)  # a tilt of the axes lifts one helix and lowers the other
     approaches = [period_mean(each.transmission_error, each.rolls.phase) for each in equilibrium.balances]
-    first, second = (own + mean for own, mean in zip(approaches, equilibrium.mean_gap, strict=True))
+    first, second = (own + mean + lift for own, mean, lift in zip(approaches, equilibrium.mean_gap, tilts, strict=True))
     tilt = float(system.frame.faces[0].force[2])
     return AxialBalance(
         apex="leading" if tilt > 0.0 else "trailing",

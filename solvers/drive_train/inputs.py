@@ -335,7 +335,9 @@ class Arrangement:
     """Position and rotation of the unit; angles are measured counter-clockwise from X, seen from +Z."""
 
     hand: Literal["right", "left"] = quantity(
-        "hand of the pinion's helix", default="right", text="without meaning for spur gears"
+        "hand of the pinion's helix",
+        default="right",
+        text="without meaning for spur gears; of double-helical gears, of the helix at the lower Z",
     )
     apex_runout: float | None = quantity(
         "axial runout of the apex",
@@ -509,7 +511,7 @@ class DriveTrainInputs:
         ge=-20000,
         le=20000,
         tolerance=0.1,
-        text="end of lowest Z of the common face",
+        text="end of lowest Z of the common face; of double-helical gears, of the first helix",
     )
     pinion_shaft: Shaft = quantity("pinion shaft", text="shaft of the driving gear")
     wheel_shaft: Shaft = quantity("wheel shaft", text="shaft of the driven gear")
@@ -523,6 +525,7 @@ class DriveTrainInputs:
         default=None,
         text="of double-helical gears: held along Z by the mesh alone; the other one has the thrust bearing",
         default_text="that of the gear with fewer teeth",
+        assumed="the shaft of the gear with fewer teeth, which a locked coupling loads least unequally",
     )
     collar_radius: float | None = quantity(
         "radius of the thrust collar",

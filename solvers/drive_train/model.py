@@ -1,5 +1,6 @@
 """Results of a drive train whose couplings, shafts, bearings and mesh are in balance."""
 
+from collections.abc import Iterable
 from functools import partial
 
 from solvers.arrays import FloatArray
@@ -14,6 +15,7 @@ from solvers.drive_train.prepared import prepare, settle
 from solvers.drive_train.results import Convergence, DriveTrainResult
 from solvers.drive_train.unit_heat import asks_for_balance, warm_unit, with_safety_band
 from solvers.heat_balance import over_the_flow
+from solvers.notices import Notice
 from solvers.scuffing.thermal.temperatures import oil_notices
 
 
@@ -69,18 +71,23 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
         helices=tuple(own.result for own in faces) if double else None,
         decisive_helix=number + 1 if double else None,
         warnings=(
-            *spread.warnings,
+            *_once(notice for own in faces for notice in own.spread.warnings),
             *coupling_notices(inputs, couplings, warnings_of(system, equilibrium)),
             *shaft_notices(inputs, shafts),
             *load_notices(inputs, [own.result.load for own in faces]),
             *loss_notices(inputs, losses),
-            *(() if axial is None else helix_notices(inputs, axial, heat)),
+            *(() if axial is None else helix_notices(inputs, axial, face.ran, heat)),
             *oil_notices(inputs.mesh, spread.path_of_contact, face.ran),
             *(() if heat is None else heat.warnings),
-            *flank.warnings,
+            *_once(notice for own in faces for notice in own.flank.warnings),
             *gas.warnings,
         ),
     )
+
+
+def _once(notices: Iterable[Notice]) -> tuple[Notice, ...]:
+    """Return the notices of both helices, each kind once."""
+    return tuple({(notice.code, notice.field): notice for notice in reversed(list(notices))}.values())[::-1]
 
 
 def _torques(inputs: DriveTrainInputs) -> tuple[float, float]:

@@ -22,14 +22,14 @@ from solvers.heat_balance import Heat
 from solvers.lubricants import hot_oil, oil_temperature, thick_oil
 from solvers.notices import Notice
 from solvers.pumping.notices import thin_air
+from solvers.scuffing.helices import UNEQUAL, counted_twice
 from solvers.scuffing.notices import unusual_modifications, unusual_temperatures
+from solvers.scuffing.safety_results import BulkInForce
 
 SHORT_BEARING = 0.7  # ratio of width to diameter above which the theory of short bearings is inaccurate
 ROUNDING = 1e-9  # relative rounding error of lengths that were converted from other units
 THIN_FILM = 15e-6  # m; thinner films give a warning
 LARGE_ECCENTRICITY = 0.9  # customary design limit, at which the thinnest film is a tenth of the clearance
-UNEQUAL = 1.1  # chosen: larger share over half the load above which unequal helices are worth a warning
-NARROW = 3.0  # chosen: normal modules; through a gap of 1.6 to 3 modules the gas of both helices escapes
 LIFTED = 0.9  # contact fraction below which flanks count as lifted off
 
 
@@ -97,7 +97,8 @@ def load_notices(inputs: DriveTrainInputs, loads: Sequence[FaceLoad]) -> Iterato
     """
     for number, load in enumerate(loads, start=1):
         where = f"helix {number}: " if len(loads) > 1 else ""
-        slope = "second_helix.helix_slope" if number > 1 else "helix_slope"
+        own = number > 1 and inputs.mesh.distribution.modifications.second_helix is not None
+        slope = "second_helix.helix_slope" if own else "helix_slope"
         if load.face_load_at in {0.0, 1.0}:
             message = f"{where}the load is largest at the end y/b = {load.face_load_at:.0f} of the face"
             yield Notice("edge_load", message, f"mesh.distribution.modifications.{slope}")
@@ -115,7 +116,9 @@ def load_notices(inputs: DriveTrainInputs, loads: Sequence[FaceLoad]) -> Iterato
         yield Notice("wall_response_assumed", message, "heat.wall_response", rank="note")
 
 
-def helix_notices(inputs: DriveTrainInputs, axial: AxialBalance, heat: Heat | None) -> Iterator[Notice]:
+def helix_notices(
+    inputs: DriveTrainInputs, axial: AxialBalance, ran: BulkInForce, heat: Heat | None
+) -> Iterator[Notice]:
     """Warn of unequal helices and of what can unload one, of double-helical gears."""
     gears, load = inputs.mesh.distribution.gears, inputs.mesh.distribution.load
     if {0.0, 1.0} & {share for shares in axial.share_bounds for share in shares}:
@@ -131,32 +134,22 @@ def helix_notices(inputs: DriveTrainInputs, axial: AxialBalance, heat: Heat | No
             "along the floating shaft"
         )
         yield Notice("unequal_shares", message, "floating_shaft")
-        if heat is None:
+        if ran.bulk_method == "given" and inputs.mesh.known_oil is not None:
             message = (
                 "the helices carry unequal loads and do not have the one bulk temperature that is given: the hotter "
                 "one is less safe than computed"
             )
             yield Notice("helices_warm_unequally", message, "mesh.temperatures.bulk")
-        if load.mesh_load_factor != 1.0:
-            message = (
-                f"K_γ {load.mesh_load_factor:.3g} is given, and the model computes unequal shares as well; give K_γ 1 "
-                "unless it stands for something else"
-            )
-            yield Notice("counted_twice", message, "mesh.distribution.load.mesh_load_factor")
-    if heat is not None:
+    yield from counted_twice(load, axial.share_factor)
+    if heat is not None and axial.share_factor > UNEQUAL:
         message = (
             "each helix has the flank temperatures of a balance in which both carry its load; in truth heat flows "
             "through the gap, and the temperatures lie closer together"
         )
         yield Notice("helices_warm_apart", message, "cooling", rank="note")
-    if (gears.gap_width or 0.0) < NARROW * gears.normal_module and inputs.effects.thermal:
-        message = (
-            f"the gap between the helices is narrower than {NARROW:.0f} modules: the gas that both helices pump may "
-            "not escape there, and both are hotter than computed"
-        )
-        yield Notice("narrow_gap", message, "gears.gap_width")
-    fast = "pinion" if gears.pinion.teeth <= gears.wheel.teeth else "wheel"
-    if axial.floating_shaft != fast and inputs.acting_couplings:
+    slow = "pinion" if gears.pinion.teeth > gears.wheel.teeth else "wheel"
+    on_it = any(coupling.shaft == axial.floating_shaft for coupling in inputs.acting_couplings)
+    if axial.floating_shaft == slow and gears.pinion.teeth != gears.wheel.teeth and on_it:
         message = (
             f"the slow shaft floats; a coupling on it shifts {gears_ratio(gears):.3g} times the load from helix to "
             "helix that one on the fast shaft would at the same hub diameter"
@@ -223,6 +216,7 @@ def unusual_values(inputs: DriveTrainInputs, result: DriveTrainResult) -> Iterat
             yield from oil_temperature(each.lubricant.temperature, f"couplings.{k}.lubricant.temperature")
     yield from unusual_gears(mesh.gears, mesh.load.pinion_speed)
     yield from unusual_modifications(mesh.modifications)
-    yield from high_pressure(load.max_pressure)
+    pressures = [load.max_pressure] if result.helices is None else [own.load.max_pressure for own in result.helices]
+    yield from high_pressure(max((pressure for pressure in pressures if pressure is not None), default=None))
     share = max((helix.share for helix in result.helices), default=1.0) if result.helices else 1.0
     yield from tooth_load(mesh.gears, share * mesh.load.torque, load.max_line_load)

@@ -1,5 +1,6 @@
 """The main results of a drive train. These results do not need the thermal film and take little time to compute."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -11,6 +12,7 @@ from solvers.drive_train.helices import decisive, loaded_face
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.prepared import Prepared, prepare, settle
 from solvers.drive_train.unit_heat import asks_for_balance, warm_unit
+from solvers.scuffing.thermal.bulk import Flanks
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,15 +48,23 @@ def outcome(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Outcom
         warm = warm_unit(
             replace(inputs, mesh=replace(inputs.mesh, cooling=replace(inputs.mesh.cooling, band=False))), start
         )
-        return outcome_of(warm.inputs, warm.prepared, warm.equilibrium)
+        return outcome_of(warm.inputs, warm.prepared, warm.equilibrium, warm.helix_flanks)
     prepared = prepare(inputs)
     return outcome_of(inputs, prepared, settle(inputs, prepared, start))
 
 
-def outcome_of(inputs: DriveTrainInputs, prepared: Prepared, equilibrium: Equilibrium) -> Outcome:
+def outcome_of(
+    inputs: DriveTrainInputs,
+    prepared: Prepared,
+    equilibrium: Equilibrium,
+    flanks: Sequence[Flanks | None] | None = None,
+) -> Outcome:
     """Return the main results of a unit in equilibrium, of the decisive helix, without the thermal film."""
     closed = replace(inputs, mesh=replace(inputs.mesh, lubrication="closed_form"))
-    faces = [loaded_face(closed, prepared, equilibrium, k, None) for k in range(len(prepared.meshes))]
+    faces = [
+        loaded_face(closed, prepared, equilibrium, k, own)
+        for k, own in enumerate(flanks or [None] * len(prepared.meshes))
+    ]
     number = decisive(faces)
     spread, heat = faces[number].spread, faces[number].flank
     shares = np.trapezoid(spread.flank.line_load, axis=0)

@@ -249,7 +249,7 @@ def _mean(helices: tuple[MeshHeat, ...]) -> MeshHeat:
 
 def _of_helix(balance: HeatBalanceInputs, heat: Heat, mesh: MeshHeat) -> HeatBalanceInputs:
     """Return the balance in which both helices carry the load of one, with the oil and the calibration of the unit."""
-    cooling = replace(balance.cooling, gear_flow=heat.gear_flow)
+    cooling = replace(balance.cooling, gear_flow=heat.gear_flow, band=False)
     if cooling.measured.any:
         other = cooling.other if cooling.measured.drain is None else heat.losses.other
         wetting = heat.wetting_share if cooling.measured.rotors else cooling.wetting_share
@@ -335,8 +335,11 @@ def with_safety_band(
 
     The flash temperature is the same at both ends.
     """
-    temperatures, heat = inputs.mesh.temperatures, warm.heat
-    cases = (warm.helices[face] if warm.helices else heat).flank_cases
+    temperatures, heat, flanks_of_helix = inputs.mesh.temperatures, warm.heat, warm.helix_flanks[face]
+    shifts = (0.0, 0.0)
+    if flanks_of_helix is not None:  # a helix differs from the unit by as much in every case of the band
+        shifts = flanks_of_helix[0] - heat.pinion.flank, flanks_of_helix[1] - heat.wheel.flank
+    cases = [(pinion + shifts[0], wheel + shifts[1]) for pinion, wheel in heat.flank_cases]
     bulks = [bulk for flanks in cases if (bulk := rule.bulk(flanks)) is not None]
     if heat.band is None or not bulks:
         return heat

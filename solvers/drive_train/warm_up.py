@@ -9,6 +9,7 @@ import numpy as np
 from solvers import heat_balance
 from solvers.arrays import ROUNDING, FloatArray, frozen
 from solvers.drive_train.derived import Derived, derived
+from solvers.drive_train.gap.balance import Equilibrium
 from solvers.drive_train.helices import on_face
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft, torsion_diameter
 from solvers.drive_train.outcome import Outcome, outcome_of
@@ -25,6 +26,7 @@ from solvers.materials import Solid
 from solvers.notices import Notice
 from solvers.pumping.space.tooth_space import normal_backlash
 from solvers.quantity import quantity, record
+from solvers.scuffing.helices import UNEQUAL
 from solvers.scuffing.model import distribution
 from solvers.scuffing.thermal.bulk import method_asked
 from solvers.scuffing.thermal.pair_heat import STEEL_EXPANSION
@@ -168,8 +170,20 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
         ),
         heat=warm.heat,
         derived=_derived(warm),
-        warnings=warm.heat.warnings,
+        warnings=(*warm.heat.warnings, *_of_two_helices(warm.equilibrium)),
     )
+
+
+def _of_two_helices(equilibrium: Equilibrium) -> Iterator[Notice]:
+    """Warn that the warm-up has one flank temperature for helices that do not carry alike."""
+    factor = equilibrium.shares.size * float(equilibrium.shares.max())
+    if factor > UNEQUAL:
+        message = (
+            f"one helix carries {100 * equilibrium.shares.max():.0f} % of the load; during the warm-up both have the "
+            "flank temperature of equal shares, so that the safety of the hotter one is overstated: the drive train "
+            "states that of the end"
+        )
+        yield Notice("helices_warm_unequally", message, "floating_shaft")
 
 
 def _by_balance(unit: DriveTrainInputs) -> DriveTrainInputs:

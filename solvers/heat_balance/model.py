@@ -40,7 +40,7 @@ class GearGeometry:
     """One gear of the pair."""
 
     teeth: int = described("Number of teeth.")
-    face_width: float = described("Face width [m].")
+    face_width: float = described("Face width, of all helices [m].")
     module: float = described("Normal module [m].")
     reference_radius: float = described("Reference radius [m].")
     tip_radius: float = described("Tip radius [m].")
@@ -49,6 +49,7 @@ class GearGeometry:
     shaft_radii: tuple[float, float] = described(
         "Radii of the shaft at both faces of the gear, 0 without a shaft there [m].", default=(0.0, 0.0)
     )
+    gap_width: float = described("Width of the rim between two helices [m].", default=0.0)
 
     @property
     def face_area(self) -> float:
@@ -208,6 +209,7 @@ def _cooled(gear: GearGeometry, pumping: float) -> CooledGear:
         face_area=gear.face_area,
         conductivity=gear.conductivity,
         pumping=pumping,
+        gap_width=gear.gap_width,
     )
 
 

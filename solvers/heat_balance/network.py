@@ -41,6 +41,7 @@ class CooledGear:
     face_area: float
     conductivity: float = 46.0
     pumping: float = 0.0
+    gap_width: float = 0.0
 
     @cached_property
     def to_body(self) -> float:
@@ -50,7 +51,7 @@ class CooledGear:
     @cached_property
     def rim(self) -> float:
         """Conductance from the rim to air [W/K]; half of this conductance leads to the flanks, and half to the body."""
-        area = 2 * pi * self.tip_radius * self.face_width
+        area = 2 * pi * self.tip_radius * (self.face_width + self.gap_width)
         return area * rim_convection(self.flanks.speed, self.tip_radius)
 
     @cached_property

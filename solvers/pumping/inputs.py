@@ -230,7 +230,12 @@ class PumpingSetup:
         assumed="order of magnitude for module 7 mm; the paper gives none",
     )
     grooves: tuple[Groove, ...] = quantity(
-        "grooves", None, f"{MILIAN}, Figs. 5, 6", default=(), length=(0, 50), text="circumferential grooves"
+        "grooves",
+        None,
+        f"{MILIAN}, Figs. 5, 6",
+        default=(),
+        length=(0, 50),
+        text="circumferential grooves, in each helix",
     )
     ambient: Ambient = quantity("ambient", default_factory=Ambient, text="the mist around the mesh")
     model: PumpingModel = quantity(

@@ -6,6 +6,7 @@ Untested inputs lie outside the range in which the model has been compared with 
 from collections.abc import Iterator, Sequence
 from math import degrees, expm1, inf, pi
 
+from solvers.gears.inputs import GearPairInputs
 from solvers.gears.notices import pair_notices, unusual_gears
 from solvers.gears.pair import GearPair, PathOfContact
 from solvers.notices import Notice, unusual_value
@@ -23,7 +24,18 @@ RESOLVED = 0.06  # largest relative uncertainty of a result without a warning
 NET_UNCERTAINTY = 0.3  # largest uncertainty of a net flow without a warning, relative to the net flow
 NEGLIGIBLE = 1e-3  # share of the gross flow; a smaller uncertainty of the net flow is not worth a warning
 LEAST_GAUGE_PRESSURE = 1e-6  # share of the ambient pressure; the pocket chain does not resolve smaller values
+NARROW = 3.0  # chosen: normal modules; through a gap of 1.6 to 3 modules the gas of both helices escapes
 THIN_AIR = 20e3  # Pa, chosen; nearly a vacuum
+
+
+def narrow_gap(gears: GearPairInputs) -> Iterator[Notice]:
+    """Warn if the gas may not escape through the gap of double-helical gears."""
+    if gears.gap_width is not None and gears.gap_width < NARROW * gears.normal_module:
+        message = (
+            f"the gap between the helices is narrower than {NARROW:.0f} modules: the gas that both helices pump may "
+            "not escape there, and both are hotter than computed"
+        )
+        yield Notice("narrow_gap", message, "gears.gap_width")
 
 
 def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float) -> list[Notice]:
@@ -31,7 +43,7 @@ def setup_notices(setup: PumpingSetup, path: PathOfContact, active_slices: float
 
     `active_slices` is the number of slices that are in their stroke at the same time.
     """
-    notices = pair_notices(path)
+    notices = [*pair_notices(path), *narrow_gap(setup.gears)]
     ratio = path.transverse_contact_ratio
     if ratio < 1.0:
         message = (

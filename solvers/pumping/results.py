@@ -229,7 +229,9 @@ class SpacesResult:
 class Totals:
     """Power of the selected spaces, meshing frequency, axial speed of the meshing point (None for spur gears)."""
 
-    pumping_power: float = quantity("pumping power", "P", unit="w")
+    pumping_power: float = quantity(
+        "pumping power", "P", unit="w", text="of the gears asked for; of double-helical gears, of both helices"
+    )
     meshing_frequency: float = quantity("meshing frequency", "f_m", unit="hz")
     axial_meshing_speed: float | None = quantity(
         "axial meshing speed",

@@ -1,12 +1,13 @@
 """Double-helical pairs: the more loaded helix is checked, and the losses are those of both helices."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from solvers.errors import NoSolution
 from solvers.gears.pair import meshing_path
 from solvers.notices import Notice
 from solvers.scuffing import model, safety
-from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs
+from solvers.scuffing.inputs import Load, LoadDistributionInputs, ScuffingInputs
 from solvers.scuffing.results import FrictionLoss, HelixShare, LoadDistribution
 from solvers.scuffing.safety_results import Scuffing
 from solvers.scuffing.thermal import temperatures
@@ -28,7 +29,8 @@ def helix_share(inputs: LoadDistributionInputs) -> HelixShare | None:
             f"axial force of {force / 1e3:.4g} kN on the floating shaft; one helix lifts off at {limit / 1e3:.4g} kN: "
             "lower the axial force, or raise the torque or the helix angle"
         )
-        raise NoSolution("helix_unloaded", message, {"axial_force_n": force, "unloading_force_n": limit})
+        residuals = {"axial_force_n": force, "unloading_force_n": limit}
+        raise NoSolution("helix_unloaded", message, residuals, "axial_force")
     share = (1.0 + force / limit) / 2 if force else 0.5
     return HelixShare(share=share, share_factor=2 * share, unloading_force=limit)
 
@@ -54,6 +56,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     helix = helix_share(inputs.distribution)
     if helix is None:
         return safety.solve_scuffing(inputs)
+    inputs = _with_flow(inputs)
     checked = safety.solve_scuffing(_of_helix(inputs, helix.share))
     loaded = checked.distribution
     loss = loaded.friction_loss
@@ -66,14 +69,19 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     return replace(
         checked,
         distribution=replace(loaded, helix=helix, friction_loss=loss),
-        warnings=(*checked.warnings, *_notices(helix, checked)),
+        warnings=(*checked.warnings, *_notices(inputs, helix, checked)),
     )
 
 
 def sized_flow(inputs: ScuffingInputs) -> float | None:
     """Compute the oil flow to the gears that is sized where none is given [m^3/s]; None if none is sized."""
-    helix = helix_share(inputs.distribution)
-    return temperatures.sized_flow(inputs if helix is None else _of_helix(inputs, helix.share))
+    return temperatures.sized_flow(_of_helix(inputs, 1.0 / inputs.distribution.gears.helices))
+
+
+def _with_flow(inputs: ScuffingInputs) -> ScuffingInputs:
+    """Return the inputs with the flow that both helices get, which does not grow with the load of one of them."""
+    flow = sized_flow(inputs)
+    return inputs if flow is None else replace(inputs, cooling=replace(inputs.cooling, gear_flow=flow))
 
 
 def _carrying(inputs: LoadDistributionInputs, share: float) -> LoadDistributionInputs:
@@ -96,18 +104,31 @@ def _of_both(loaded: FrictionLoss, other: FrictionLoss, share: float) -> Frictio
     return replace(loaded, loss_factor=factor, power=loaded.power + other.power, efficiency=1.0 - lost)
 
 
-def _notices(helix: HelixShare, checked: Scuffing) -> tuple[Notice, ...]:
-    """Warn of unequal helices that share one temperature."""
+def _notices(inputs: ScuffingInputs, helix: HelixShare, checked: Scuffing) -> Iterator[Notice]:
+    """Warn of unequal helices that share one temperature, and of a load factor that counts them twice."""
+    load = inputs.distribution.load
+    yield from counted_twice(load, helix.share_factor)
     if helix.share_factor <= UNEQUAL:
-        return ()
-    if checked.heat is None:
+        return
+    if checked.derived.bulk.bulk_method == "given" and checked.contact_temperature is not None:
         message = (
             "the helices carry unequal loads and do not have the one bulk temperature that is used: the hotter one is "
             "less safe than computed"
         )
-        return (Notice("helices_warm_unequally", message, "temperatures.bulk"),)
-    message = (
-        "the heat balance is that of two helices which both carry the larger load; heat that flows through the gap "
-        "makes the hotter one somewhat cooler"
-    )
-    return (Notice("helices_warm_apart", message, "cooling", rank="note"),)
+        yield Notice("helices_warm_unequally", message, "temperatures.bulk")
+    if checked.heat is not None:
+        message = (
+            "the heat balance and its losses are those of two helices which both carry the larger load; heat that "
+            "flows through the gap makes the hotter one somewhat cooler"
+        )
+        yield Notice("helices_warm_apart", message, "cooling", rank="note")
+
+
+def counted_twice(load: Load, share_factor: float) -> Iterator[Notice]:
+    """Warn if a mesh load factor is given although unequal shares are computed."""
+    if load.mesh_load_factor > 1.0 and share_factor > 1.0:
+        message = (
+            f"K_γ {load.mesh_load_factor:.3g} is given, and the shares of the helices are computed as well (K_γ "
+            f"{share_factor:.3g}): give 1 unless yours stands for something else"
+        )
+        yield Notice("counted_twice", message, "mesh_load_factor")

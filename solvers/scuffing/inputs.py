@@ -88,7 +88,8 @@ class Load:
         ge=-1e8,
         le=1e8,
         tolerance=100,
-        text="on the shaft that floats, towards +Z; loads one helix of double-helical gears more than the other",
+        text="on the shaft that floats, towards +Z, without the thrust of couplings; loads one helix of double-helical "
+        "gears more than the other",
     )
     helix_share: float = described("Share of the torque that the helix carries.", kw_only=True, default=1.0)
 

@@ -161,7 +161,9 @@ def unusual_load_values(inputs: LoadDistributionInputs, result: LoadDistribution
     yield from unusual_gears(inputs.gears, inputs.load.pinion_speed)
     yield from unusual_modifications(inputs.modifications)
     yield from high_pressure(result.pressure.max)
-    yield from tooth_load(inputs.gears, inputs.load.helix_torque, result.load.max_line_load)
+    yield from tooth_load(
+        inputs.gears, (result.helix.share if result.helix else 1.0) * inputs.load.torque, result.load.max_line_load
+    )
 
 
 def unusual_modifications(modifications: Modifications) -> Iterator[Notice]:
@@ -171,8 +173,10 @@ def unusual_modifications(modifications: Modifications) -> Iterator[Notice]:
         for name, declared in quantities(Modifications).items()
         if declared.unit == "um"
     }
+    if (second := modifications.second_helix) is not None:
+        depths |= {f"second_helix.{name}": getattr(second, name) for name in ("helix_slope", "lead_crowning")}
     for name, value in depths.items():
-        if 0.0 < abs(value) < LEAST_MODIFICATION:
+        if value is not None and 0.0 < abs(value) < LEAST_MODIFICATION:
             message = (
                 f"a modification of {value * 1e6:g} µm is too small to be ground; was a value entered in the wrong "
                 "unit (mm)?"

@@ -238,7 +238,8 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
             section = cylinder.si(si.ShaftSection, **default)
             end = position + section.length
             toothed = any(position < high - si.COINCIDENT and end > low + si.COINCIDENT for low, high in helices)
-            in_gap = position < helices[1][0] - si.COINCIDENT and end > helices[0][1] + si.COINCIDENT
+            low, high = helices[0][1], helices[1][0]
+            in_gap = high - low > si.COINCIDENT and position < high - si.COINCIDENT and end > low + si.COINCIDENT
             if left_out and (in_gap or not toothed):
                 message = (
                     "the outer diameter may be left out only under the teeth"
@@ -311,7 +312,7 @@ class DriveTrainRequest(MeshInOil):
         list[GearGroove],
         Input(
             "grooves",
-            text=("circumferential grooves; they let the mist out and do not reduce the load-carrying face"),
+            text="circumferential grooves, in each helix; they let the mist out and do not reduce the load-carrying face",
             length=(0, 50),
         ),
     ] = Field(default_factory=list)

@@ -70,6 +70,9 @@ class LoadDistributionRequest(GearPairRequest):
     def inputs(self) -> si.LoadDistributionInputs:
         return distribution_inputs(self, self.gears.si(GearPairInputs), self.load.si(si.Load))
 
+    def assumed_by_the_model(self) -> dict[str, str]:
+        return self.gears.assumed_widths()
+
     def unused(self) -> dict[str, bool]:
         roughness = {"materials.pinion.roughness_um": True, "materials.wheel.roughness_um": True}
         return roughness | {"load.axial_force_n": self.gears.gap_width_mm is None}

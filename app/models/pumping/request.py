@@ -47,7 +47,8 @@ class _PumpingSetup(Request, of=si.PumpingSetup, without=("normal_backlash",)):
 
     def assumed_by_the_model(self) -> dict[str, str]:
         """Return the assumption that only the axial speed contributes to the stagnation temperature."""
-        return {} if self.model.flow == "incompressible" else {"model.flow": AXIAL_SPEED_ONLY}
+        widths = self.gears.assumed_widths()
+        return widths if self.model.flow == "incompressible" else widths | {"model.flow": AXIAL_SPEED_ONLY}
 
 
 class PumpingRequest(_PumpingSetup):

@@ -221,7 +221,7 @@ class MeshInOil(Request):
 
     def assumed_by_the_model(self) -> dict[str, str]:
         """Return the assumptions about friction, oil, bulk temperature and film."""
-        reasons: dict[str, str] = {}
+        reasons = self.gears.assumed_widths()
         if not self.lubricant.known:
             return reasons
         if self.model.friction == "iso_tr_13989":
@@ -269,7 +269,8 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
 
     def unused(self) -> dict[str, bool]:
         of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg")
-        return super().unused() | dict.fromkeys(of_a_unit, True)
+        single = {"load.axial_force_n": self.gears.gap_width_mm is None}
+        return super().unused() | dict.fromkeys(of_a_unit, True) | single
 
     def inputs(self) -> si.ScuffingInputs:
         return self.scuffing_inputs(*self.running())

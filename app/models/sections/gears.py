@@ -31,6 +31,15 @@ class Gears(Section, of=GearPairInputs, without=("rack_tip_radius",)):
     Subclasses add `rack_tip_radius`, because the default of this field depends on the calculation.
     """
 
+    def assumed_widths(self) -> dict[str, str]:
+        """Say what two helices and their gap measure together, because three conventions of the width are in use."""
+        if self.gap_width_mm is None:
+            return {}
+        b, e = self.face_width_mm, self.gap_width_mm
+        return {
+            "gears.face_width_mm": f"the width of one helix: two of {b:g} mm and the gap of {e:g} mm are {2 * b + e:g} mm"
+        }
+
 
 class ScuffingGears(Gears):
     """The gear pair of the scuffing calculations."""

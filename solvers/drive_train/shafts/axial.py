@@ -53,7 +53,10 @@ class AxialSplit:
             f"{limit / 1e3:.4g} kN: lower the friction of the coupling or its share along the shaft, or the external "
             "axial force, or raise the torque or the helix angle"
         )
-        raise NoSolution("helix_unloaded", message, {"axial_force_n": force, "unloading_force_n": limit})
+        thrust = max(self.thrusts, key=lambda place: abs(hub_loads[place]), default=None)
+        by_coupling = thrust is not None and abs(hub_loads[thrust]) > abs(self.external)
+        field = f"couplings.{thrust // LOADS}.thrust_fraction" if by_coupling and thrust is not None else "axial_force"
+        raise NoSolution("helix_unloaded", message, {"axial_force_n": force, "unloading_force_n": limit}, field)
 
     def unloading_force(self, transmitted: float) -> float:
         """Return the axial force at which one helix lifts off, F_bt tan beta_b [N]."""

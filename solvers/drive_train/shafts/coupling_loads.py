@@ -153,6 +153,8 @@ def runout_thrust(port: CouplingPort, runout: float, tilts: tuple[float, float])
     Both hubs are in series, so that they share the motion in proportion to their tilts: (2/pi) asin(e/(r_o sum delta)).
     """
     reach = pitch_radius(port.inputs.coupling) * sum(tilts)
+    if runout == 0.0:
+        return 0.0
     return 2 / pi * asin(runout / reach) if runout < reach else 1.0
 
 

@@ -149,7 +149,7 @@ def split_thrust_budget(
     `force` [N] is the axial force on the floating shaft, which the mesh passes on to the other shaft's thrust bearing.
     """
     floating = split.shaft
-    mesh = (-force, force) if floating == 0 else (force, -force)
+    mesh = (0.0 - force, force) if floating == 0 else (force, 0.0 - force)  # 0 - 0 is 0, -0 is not
     held = (split.external - sum(limits), split.external + sum(limits))
     bounds = ((None, None), held) if floating == 0 else (held, (None, None))
     return _thrusts(inputs, mesh, couplings, limits, diameters, bounds)

@@ -25,7 +25,7 @@ def misalignment_left_out(
     given, pair = asked.distribution, distribution.path_of_contact.pair
     m, factor = given.modifications, distribution.load.face_load_factor
     states_one = m.helix_slope or m.in_plane_deviation or m.out_of_plane_deviation or any(m.lead_curve.gap)
-    if states_one or factor is None or given.gears.face_width <= WIDE * 2 * pair.pinion.reference_radius:
+    if states_one or factor is None or given.gears.toothed_width <= WIDE * 2 * pair.pinion.reference_radius:
         return ()
     tilted = replace(given, modifications=replace(m, helix_slope=SLOPE))
     try:

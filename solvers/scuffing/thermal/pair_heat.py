@@ -62,6 +62,7 @@ def gear_geometries(given: LoadDistributionInputs, path: PathOfContact) -> tuple
         GearGeometry(
             teeth=gear.teeth,
             face_width=given.gears.toothed_width,
+            gap_width=given.gears.gap_width or 0.0,
             module=given.gears.normal_module,
             reference_radius=gear.reference_radius,
             tip_radius=gear.tip_radius,
