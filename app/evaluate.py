@@ -157,7 +157,7 @@ def response_to(calculation: Calculation, request: Request, result: Any) -> Resp
     """
     content: dict[str, Any]
     if isinstance(result, NoSolution):
-        warning = {"rank": "invalid", "code": result.code, "message": result.message}
+        warning: dict[str, str | None] = {"rank": "invalid", "code": result.code, "message": result.message}
         if result.field is not None:
             warning["field"] = field_path(request, result.field)
         content = {"status": "no_solution", "warnings": [warning], "residuals": result.residuals}

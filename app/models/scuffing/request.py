@@ -221,7 +221,7 @@ class MeshInOil(Request):
 
     def assumed_by_the_model(self) -> dict[str, str]:
         """Return the assumptions about friction, oil, bulk temperature and film."""
-        reasons = self.gears.assumed_widths()
+        reasons: dict[str, str] = self.gears.assumed_widths()
         if not self.lubricant.known:
             return reasons
         if self.model.friction == "iso_tr_13989":

@@ -36,9 +36,7 @@ class Gears(Section, of=GearPairInputs, without=("rack_tip_radius",)):
         if self.gap_width_mm is None:
             return {}
         b, e = self.face_width_mm, self.gap_width_mm
-        return {
-            "gears.face_width_mm": f"the width of one helix: two of {b:g} mm and the gap of {e:g} mm are {2 * b + e:g} mm"
-        }
+        return {"gears.face_width_mm": f"of one helix: two of {b:g} mm and the gap of {e:g} mm are {2 * b + e:g} mm"}
 
 
 class ScuffingGears(Gears):
