@@ -312,7 +312,7 @@ class DriveTrainRequest(MeshInOil):
         list[GearGroove],
         Input(
             "grooves",
-            text="circumferential grooves, in each helix; they let the mist out and do not reduce the face that carries",
+            text="circumferential grooves, in each helix; they let the mist out; the face carries as before",
             length=(0, 50),
         ),
     ] = Field(default_factory=list)
