@@ -83,6 +83,7 @@ WORDS = Words(
     of_the_film=frozenset({"safety.minimum"}),
     from_file=FromFile(unknown=frozenset({"scuffing.application_factor"}), renamed={"load": "operation"}),
     to_file=(
+        FileResult("share", "share", "none"),
         *LOAD_RESULTS,
         FileResult("load.max_pressure_mpa", "maximum_hertzian_pressure", "MPa"),
         FileResult("load.transmission_error_pp_um", "transmission_error_peak_to_peak", "mum"),

@@ -6,7 +6,14 @@ from app.schema.quantities import View
 from solvers.scuffing import results
 
 MESH = frozenset({"gears", "load", "materials", "modifications", "friction_coefficient"})
-NOT_OF_A_MESH = frozenset({"gears.hand", "gears.normal_backlash_mm"})  # what only a unit asks for
+NOT_OF_A_MESH = frozenset(  # what only a unit asks for
+    {
+        "gears.hand",
+        "gears.normal_backlash_mm",
+        "modifications.second_helix.helix_slope_um",
+        "modifications.second_helix.lead_crowning_um",
+    }
+)
 
 named(
     FlankPlace=results.Place,

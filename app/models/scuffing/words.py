@@ -121,6 +121,7 @@ WORDS = Words(
         renamed={"scuffing.application_factor": "load.application_factor"},
     ),
     to_file=(
+        FileResult("helix.share", "share", "none"),
         *LOAD_RESULTS,
         FileResult("load.contact_fraction", "contact_pattern_fraction", "none"),
         FileResult("pressure.max_mpa", "maximum_hertzian_pressure", "MPa"),
