@@ -79,7 +79,8 @@ class Words:
     remarks        how well results are known, by path
     losses         powers that a load spectrum averages
     scuffing       the temperatures that a load spectrum compares unless it names limits
-    of_the_film    outputs that need the thermal film, beside those with `thermal_ehl` in their path; None: no film
+    of_the_film    outputs that need the thermal film (`*` for an index), beside those with `thermal_ehl` in their path;
+                   None: no film
     from_file      what a request takes from a REXS file; None: files make no such request
     to_file        results that go back into a REXS file
     chapters       the chapters of the manual about optional sections, by section

@@ -80,7 +80,7 @@ WORDS = Words(
     chapters=OPTIONAL_CHAPTERS,
     losses=("losses.coupling_w", "losses.pumping_w", "losses.mesh_w", "losses.bearings_w"),
     scuffing=ScuffingPaths("flash.contact_max_c", "derived.temperatures.scuffing_c"),
-    of_the_film=frozenset({"safety.minimum"}),
+    of_the_film=frozenset({"safety.minimum", "helices.*.safety.minimum"}),
     from_file=FromFile(unknown=frozenset({"scuffing.application_factor"}), renamed={"load": "operation"}),
     to_file=(
         FileResult("share", "share", "none"),
