@@ -9,7 +9,15 @@ from solvers.drive_train.gap.balance import Equilibrium
 from solvers.drive_train.inputs import DriveTrainInputs, Vector2
 from solvers.drive_train.results import BearingResult, CouplingResult, ShaftCurves, ShaftResult
 from solvers.drive_train.shafts.bearings import BearingState
-from solvers.drive_train.shafts.coupling_loads import LEAST_TILT, LOADS, TILTS, HubMoments, hub_moments, hub_warnings
+from solvers.drive_train.shafts.coupling_loads import (
+    LEAST_TILT,
+    LOADS,
+    TILTS,
+    HubMoments,
+    held_thrust,
+    hub_moments,
+    hub_warnings,
+)
 from solvers.drive_train.shafts.influence import ShaftPorts, Unit
 from solvers.drive_train.shafts.thrust_budget import mesh_thrust, split_thrust_budget, thrust_budget
 from solvers.gears.pair import PathOfContact
@@ -53,6 +61,9 @@ def coupling_results(
         tilts = equilibrium.hubs.tilts[TILTS * k : TILTS * (k + 1)]
         *force, turned_x, turned_y, thrust = map(float, equilibrium.loads[unit.count + LOADS * k :][:LOADS])
         sizes = (hypot(tilts[0], tilts[1]), hypot(tilts[2], tilts[3]))
+        held = None
+        if unit.split is not None:
+            held = min(held_thrust(port, hub.friction_coefficient, size) for hub, size in zip(pair, sizes, strict=True))
         results.append(
             CouplingResult(
                 tilt=sizes,
@@ -64,6 +75,7 @@ def coupling_results(
                 thrust=thrust,
                 thrust_limit=min(hub.thrust_limit for hub in pair),
                 friction_power=sum(hub.loss * port.speed * size for hub, size in zip(pair, sizes, strict=True)),
+                held_thrust_fraction=held,
             )
         )
     return tuple(results)

@@ -11,6 +11,7 @@ from solvers.drive_train.inputs import NAMES_OF_SHAFTS, DriveTrainInputs
 from solvers.drive_train.prepared import Prepared, of_faces
 from solvers.drive_train.results import AxialBalance, CouplingResult, FaceLoad, HelixResult
 from solvers.drive_train.safety import FlankHeat, contact_of, flank_heat
+from solvers.drive_train.shafts.coupling_loads import runout_thrust
 from solvers.scuffing.mesh_results import period_mean
 from solvers.scuffing.micropitting.wear import wear_asked_for
 from solvers.scuffing.model import distribution
@@ -107,21 +108,21 @@ def decisive(faces: list[LoadedFace]) -> int:
 
 
 def axial_balance(
-    prepared: Prepared, equilibrium: Equilibrium, couplings: tuple[CouplingResult, ...]
+    inputs: DriveTrainInputs, prepared: Prepared, equilibrium: Equilibrium, couplings: tuple[CouplingResult, ...]
 ) -> AxialBalance | None:
     """Return the axial balance of the floating shaft and its bounds; None for a single helix (Eq. D17, D18)."""
     system = prepared.unit
     split = system.split
     if split is None:
         return None
-    force, limit = (
-        prepared.meshes[0].transmitted,
-        sum(
-            coupling.thrust_limit
-            for port, coupling in zip(system.couplings, couplings, strict=True)
-            if port.inputs.shaft == NAMES_OF_SHAFTS[split.shaft]
-        ),
-    )
+    floating = [
+        (port, coupling)
+        for port, coupling in zip(system.couplings, couplings, strict=True)
+        if port.inputs.shaft == NAMES_OF_SHAFTS[split.shaft]
+    ]
+    force, limit = prepared.meshes[0].transmitted, sum(coupling.thrust_limit for _, coupling in floating)
+    runout = inputs.arrangement.apex_runout
+    by_runout = [] if runout is None else [runout_thrust(port, runout, each.tilt) for port, each in floating]
     acting = split.force(equilibrium.hubs.loads)
     bounds = [
         min(max((1.0 + split.difference(split.external + sign * limit, force)) / 2, 0.0), 1.0) for sign in (-1.0, 1.0)
@@ -136,5 +137,6 @@ def axial_balance(
         share_factor=float(2 * equilibrium.shares.max()),
         share_bounds=((bounds[0], 1.0 - bounds[0]), (bounds[1], 1.0 - bounds[1])),
         unloading_force=split.unloading_force(force),
+        runout_thrust_fraction=by_runout[0] if by_runout else None,
         float=-(first - second) / (2 * tilt) if tilt else None,
     )

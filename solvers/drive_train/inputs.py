@@ -365,6 +365,18 @@ class Arrangement:
     hand: Literal["right", "left"] = quantity(
         "hand of the pinion's helix", default="right", text="without meaning for spur gears"
     )
+    apex_runout: float | None = quantity(
+        "axial runout of the apex",
+        "e_A",
+        unit="um",
+        kw_only=True,
+        default=None,
+        ge=0,
+        le=1000,
+        tolerance=2,
+        text="of double-helical gears, amplitude over a turn of the pinion; makes the coupling slide to and fro",
+        default_text="what it makes of the coupling's thrust is not told",
+    )
     rotation: Literal["counterclockwise", "clockwise"] = quantity(
         "rotation of the pinion", default="counterclockwise", text="rotation of the pinion, seen from +Z"
     )

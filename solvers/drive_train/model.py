@@ -62,7 +62,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     friction = None if None in frictions else sum(power for power in frictions if power is not None)
     losses = train_losses(inputs, friction, gas.power, shafts, couplings, heat)
     double = system.split is not None
-    axial = axial_balance(prepared, equilibrium, couplings)
+    axial = axial_balance(inputs, prepared, equilibrium, couplings)
     return DriveTrainResult(
         misalignment=result.misalignment,
         load=result.load,

@@ -222,6 +222,15 @@ class CouplingResult:
     friction_power: float = quantity(
         "friction power of the coupling", "P_C", unit="w", text="of both hubs", equation="D9"
     )
+    held_thrust_fraction: float | None = quantity(
+        "share of the friction limit that a tilted hub holds along the shaft",
+        "τ_held",
+        text="max(0, 1 − δ/δ_0) of the hub that holds less; above 0 the coupling can lock; left out without two "
+        "helices",
+        default=None,
+        left_out=True,
+        equation="D21",
+    )
 
 
 @record(equation="D15")
@@ -423,6 +432,13 @@ class AxialBalance:
     )
     unloading_force: _Number = quantity(
         "axial force that unloads a helix", "F_bt tan β_b", unit="n", text="at which one helix lifts off"
+    )
+    runout_thrust_fraction: _Number | None = quantity(
+        "share of the friction limit by the apex's runout",
+        "τ_A",
+        text="(2/π) asin(e_A/(r_o (δ_A + δ_B))) of the sliding hubs; null without a runout or a coupling on the "
+        "floating shaft",
+        equation="D21",
     )
     float: _Number | None = quantity(
         "axial float", "a", unit="um", text="of the pinion against the wheel, towards +Z", equation="D18"

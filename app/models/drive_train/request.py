@@ -31,7 +31,7 @@ from solvers.quantity import UNITS
 from solvers.scuffing import inputs as mesh
 
 
-class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
+class TrainGears(BacklashGears, of=si.Arrangement, only=("hand", "apex_runout")):
     """The gear pair, with its backlash and the hand of the helix."""
 
     rack_tip_radius: Annotated[
@@ -54,7 +54,7 @@ class TrainGears(BacklashGears, of=si.Arrangement, only=("hand",)):
         return self.si(GearPairInputs, rack_tip_radius=rack_tip_radius if own is None else own)
 
 
-class TrainOperation(ScuffingLoad, of=si.Arrangement, without=("hand",)):
+class TrainOperation(ScuffingLoad, of=si.Arrangement, without=("hand", "apex_runout")):
     """Torque or power, speed, sense of rotation and orientation of the unit."""
 
     choice_missing: ClassVar = "load_missing"
@@ -433,7 +433,7 @@ class DriveTrainRequest(MeshInOil):
             | dict.fromkeys(("thermal.pinion_bulk_c", "thermal.wheel_bulk_c"), self.is_balanced)
             | dict.fromkeys(("cooling.pumping_w", "cooling.casing.mass_kg"), True)
             | dict.fromkeys(
-                ("floating_shaft", "operation.axial_force_n", "modifications.second_helix"),
+                ("gears.apex_runout_um", "floating_shaft", "operation.axial_force_n", "modifications.second_helix"),
                 self.gears.gap_width_mm is None,
             )
             | {f"{self._floating()}_shaft.thrust_bearing": self.gears.gap_width_mm is not None}

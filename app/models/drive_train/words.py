@@ -49,13 +49,19 @@ SHAFT = group(results.ShaftResult, "ShaftSummary", without=("curves",))
 component(results.ShaftResult, "ShaftState", base=SHAFT)
 GAPS = group(results.Misalignment, "MisalignmentSummary", without=("curves",), shaft_slope=View(headline=3))
 component(results.Misalignment, "MisalignmentState", base=GAPS)
+HELIX = group(results.HelixResult, "HelixSummary", fields={"misalignment": GAPS})
 STATE_DERIVED = group(derived.Derived, "StateDerived", only=("temperatures",))
 component(derived.Derived, "DriveTrainDerived", base=MESH_DERIVED)
 SUMMARY = group(
     results.DriveTrainResult,
     "TrainSummary",
     without=("flank", "states", "heat"),
-    fields={"misalignment": GAPS, "shafts": GenericAlias(list, SHAFT), "derived": STATE_DERIVED},
+    fields={
+        "misalignment": GAPS,
+        "shafts": GenericAlias(list, SHAFT),
+        "helices": GenericAlias(list, HELIX) | None,
+        "derived": STATE_DERIVED,
+    },
 )
 component(results.States, "TrainStates", fields={"cold": SUMMARY | None})
 component(WarmUp, "WarmUpOfNodes", greatest_difference=View(headline=1))

@@ -3,13 +3,14 @@
 The gap between the flanks determines how the load is distributed over the face. The load bends the shafts, and the bent
 shafts in turn cause a gap. In equilibrium, both gaps are equal. A double-helical pair has a gap on each of its two
 faces, which the shafts join. The unknown is the gap g at the stations, which are points along the face. The residual R
-is g minus the gap that shafts, bearings and couplings cause under the load that belongs to g. Newton's step dg is the solution of the linear equations (I - D B) dg = -R. Here B = dQ/dg is the
-derivative of the mesh force Q. The force Q is a mean over a base pitch. The shafts follow only this mean, because the
-mesh frequency is far higher than the natural frequencies of bending and of the bearing films. D is the derivative of
-the shafts' gap with respect to Q; the response of the couplings is part of D. The mean of g over each face is
-subtracted, because this mean belongs to the transmission error and to the axial float. The shares of two faces follow
-from the thrust of the couplings in the last step. If no start value is given, an iteration with fewer roll positions
-and slices comes first. This first iteration makes most of the steps.
+is g minus the gap that shafts, bearings and couplings cause under the load that belongs to g. Newton's step dg is the
+solution of the linear equations (I - D B) dg = -R. Here B = dQ/dg is the derivative of the mesh force Q. The force Q is
+a mean over a base pitch. The shafts follow only this mean, because the mesh frequency is far higher than the natural
+frequencies of bending and of the bearing films. D is the derivative of the shafts' gap with respect to Q; the response
+of the couplings is part of D. The mean of g over each face is subtracted, because this mean belongs to the transmission
+error and to the axial float. The shares of two faces follow from the thrust of the couplings in the last step. If no
+start value is given, an iteration with fewer roll positions and slices comes first. This first iteration makes most of
+the steps.
 """
 
 from collections.abc import Sequence

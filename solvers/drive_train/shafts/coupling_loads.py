@@ -18,7 +18,7 @@ the shaft with the share tau of the friction limit. This limit is the smaller of
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from math import acos, cos, hypot, pi, sin, sqrt
+from math import acos, asin, cos, hypot, pi, sin, sqrt
 
 import numpy as np
 
@@ -141,10 +141,33 @@ def sliding_tilt(port: CouplingPort, friction: float) -> float:
     Eq. D8. kt is the result of `axial_share`, T is the torque, z is the number of teeth, r_o is the pitch radius, alpha
     is the pressure angle, and c_a is the axial stiffness of a tooth.
     """
+    return axial_share(port) * _yielding_tilt(port, friction)
+
+
+def _yielding_tilt(port: CouplingPort, friction: float) -> float:
+    """Tilt at which the teeth begin to slide while nothing acts along the shaft, mu T/(z r_o^2 cos alpha c_a) [rad]."""
     coupling = port.inputs.coupling
     stiffness = port.inputs.axial_tooth_stiffness or coupling.tooth_stiffness
     elastic = coupling.teeth * pitch_radius(coupling) ** 2 * cos(coupling.pressure_angle) * stiffness
-    return axial_share(port) * friction * port.torque / elastic
+    return friction * port.torque / elastic
+
+
+def held_thrust(port: CouplingPort, friction: float, tilt: float) -> float:
+    """Share of the friction limit that a hub can hold along the shaft, max(0, 1 - delta/delta_0) (Eq. D21).
+
+    A hub that slides in tilt cannot hold a steady axial force: it creeps until the force is gone.
+    """
+    limit = _yielding_tilt(port, friction)
+    return max(0.0, 1.0 - tilt / limit) if limit > 0.0 else 0.0
+
+
+def runout_thrust(port: CouplingPort, runout: float, tilts: tuple[float, float]) -> float:
+    """Share of the friction limit by an axial motion of amplitude `runout` [m] over sliding hubs (Eq. D21).
+
+    Both hubs are in series, so that they share the motion in proportion to their tilts: (2/pi) asin(e/(r_o sum delta)).
+    """
+    reach = pitch_radius(port.inputs.coupling) * sum(tilts)
+    return 2 / pi * asin(runout / reach) if runout < reach else 1.0
 
 
 def axial_share(port: CouplingPort) -> float:
