@@ -127,14 +127,14 @@ def shafts(inputs: DriveTrainInputs, _: object) -> Figure:
         ]
         marks += [Mark(machine / MM, height / MM, "machine", Hue.ORANGE) for machine in machines]
         if len(faces) > 1 and name == floating_shaft(inputs):
-            marks.append(Mark(ends[-1] / MM, height / MM, "floats along Z", Hue.GREEN))
+            marks.append(Mark(ends[-1] / MM, height / MM, "floats", Hue.GREEN))
         far = values([min(shaft.start, shaft.end, *machines) / MM, max(shaft.start, shaft.end, *machines) / MM])
         lines.append(Line("axis", far, values([height / MM] * 2), Hue.GREY, Role.REFERENCE, named=False))
     spans = []
     if len(faces) > 1:
         (_, first), (second, _) = faces
-        stretches = ((faces[0], gears.face_width), ((first, second), second - first), (faces[1], gears.face_width))
-        spans = [Span(start / MM, end / MM, number(width / MM, digits=4)) for (start, end), width in stretches]
+        helix, between = (number(width / MM, digits=4) for width in (gears.face_width, second - first))
+        spans = [Span(first / MM, second / MM, f"{helix} + {between} + {helix} mm")]
     panel = Panel(
         x=Axis("position along Z", "mm", magnitude=False),
         y=Axis("height above the axis of the pinion", "mm", magnitude=False),
@@ -163,7 +163,7 @@ def widths(gears: GearPairInputs) -> str:
     helix, gap, total = (
         number(width / MM, digits=4) for width in (gears.face_width, gears.gap_width or 0.0, gears.total_width)
     )
-    return f"two helices of {helix} and a gap of {gap}, together {total} mm"
+    return f"two helices of {helix} mm and a gap of {gap} mm, together {total} mm"
 
 
 def _box(title: str, start: float, end: float, height: float, radius: float, hue: Hue) -> Line:

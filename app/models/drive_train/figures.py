@@ -384,7 +384,7 @@ FIGURES = (
     Declaration("helices", "Load and gap of both helices", OWN, helix_figures.over_both, asked_by=DOUBLE),
     Declaration(
         "thrust-shares",
-        "Share and safety of the helices over the coupling's thrust",
+        "Shares and safety over the coupling's thrust",
         OWN,
         helix_figures.shares,
         compute=helix_figures.over_the_thrust,

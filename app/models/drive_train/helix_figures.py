@@ -160,7 +160,7 @@ def _panel(x: Axis, y: Axis, data: Values, reached: list[Level], limits: list[Le
 def _finding(solved: Shares, held: float) -> str:
     """Return what a locked coupling does, and what one does that holds only the fraction `held` of its friction."""
     texts = []
-    for name, fractions in (("locked", SIDES), (f"holding {number(held)}", (-held, held))):
+    for name, fractions in (("locked", SIDES), (f"holding {number(held)}" if held else "sliding", (-held, held))):
         share = max(float(np.interp(at, FRACTIONS, line)) for at in fractions for line in solved.share.T)
         factor = min(float(np.interp(at, FRACTIONS, line)) for at in fractions for line in solved.safety.T)
         if np.isfinite(share):
