@@ -22,6 +22,7 @@ NAMES = (
     "scuffing",
     "micropitting",
     "drive-train",
+    "double-helical",
     "heat-balance",
     "practice",
     "spectrum",

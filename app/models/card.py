@@ -75,7 +75,8 @@ class Words:
     """What pages, studies and files say of an endpoint's answers. Paths are dotted paths of the answer.
 
     verdicts       judges headline numbers that need more than a limit, by path
-    conclusion     the answer in words
+    conclusion     the answer in words, one statement a line
+    belongs        what headline numbers belong to, by path, such as the helix that decides
     remarks        how well results are known, by path
     losses         powers that a load spectrum averages
     scuffing       the temperatures that a load spectrum compares unless it names limits
@@ -88,6 +89,7 @@ class Words:
 
     verdicts: Callable[[Any], dict[str, Verdict]] = _nothing
     conclusion: Callable[[Any], str] = _silence
+    belongs: Callable[[Any], dict[str, str]] = _nothing
     remarks: Callable[[Any], dict[str, str]] = _nothing
     losses: tuple[str, ...] = ()
     scuffing: ScuffingPaths | None = None
