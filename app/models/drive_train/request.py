@@ -413,6 +413,16 @@ class DriveTrainRequest(MeshInOil):
         for name in ("pinion_bulk_c", "wheel_bulk_c") if self.is_balanced else ():
             if getattr(self.thermal, name) is not None:
                 reasons[f"thermal.{name}"] = "not used, because the heat balance computes the temperatures of the teeth"
+        if self.gears.gap_width_mm is None:
+            second = self.modifications.second_helix
+            given = {
+                "floating_shaft": self.floating_shaft,
+                "operation.axial_force_n": self.operation.axial_force_n,
+                "gears.apex_runout_um": self.gears.apex_runout_um,
+                "modifications.second_helix.helix_slope_um": second and second.helix_slope_um,
+                "modifications.second_helix.lead_crowning_um": second and second.lead_crowning_um,
+            }
+            reasons |= {path: "not used, because the gears have one helix" for path, value in given.items() if value}
         return reasons
 
     def unused(self) -> dict[str, bool]:
