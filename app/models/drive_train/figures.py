@@ -378,9 +378,6 @@ DOUBLE = "gears.gap_width_mm"  # its presence makes the gears double helical
 FIGURES = (
     Declaration("shafts", "Shafts, bearings and couplings", "as described", shafts),
     section(lambda inputs: inputs.mesh.distribution.gears),
-    Declaration("shaft-lines", "Displaced shafts in both planes", OWN, shaft_lines),
-    GAP,
-    Declaration("slope-parts", "Where the misalignment comes from", OWN, slope_parts),
     Declaration("helices", "Load and gap of both helices", OWN, helix_figures.over_both, asked_by=DOUBLE),
     Declaration(
         "thrust-shares",
@@ -390,6 +387,9 @@ FIGURES = (
         compute=helix_figures.over_the_thrust,
         asked_by=DOUBLE,
     ),
+    Declaration("shaft-lines", "Displaced shafts in both planes", OWN, shaft_lines),
+    GAP,
+    Declaration("slope-parts", "Where the misalignment comes from", OWN, slope_parts),
     Declaration(
         "face-load", "Load along the face, with and without each effect", OWN, face_load, compute=effects_apart
     ),

@@ -67,6 +67,10 @@ class GroundCurve(Section, of=mesh.LeadCurve):
     """
 
 
+class SecondHelix(Section, of=mesh.SecondHelix):
+    """What differs on the helix at the higher Z; y runs from that helix's own end that meshes first."""
+
+
 class TrainModifications(FlankModifications, of=mesh.Modifications):
     """Gaps between the flanks: modifications that are made by grinding, and misalignment that has other causes.
 

@@ -96,9 +96,8 @@ def conclusion(response: Any) -> str:
     if response.axial is None:
         return ""
     grind = [
-        f"Grind on helix {place}: helix slope {number(helix.misalignment.recommended_helix_slope_um, 'µm')}, crowning "
-        f"{number(helix.misalignment.recommended_lead_crowning_um, 'µm')} (first estimate, from its end that meshes "
-        "first)."
+        f"Grind on helix {place}: slope {number(helix.misalignment.recommended_helix_slope_um, 'µm')}, crowning "
+        f"{number(helix.misalignment.recommended_lead_crowning_um, 'µm')} (first estimate)."
         for place, helix in enumerate(response.helices, start=1)
     ]
     return "\n".join([_locks(response), *grind])
@@ -121,15 +120,16 @@ def _locks(response: Any) -> str:
     locked = max(least, greatest, 1.0 - least, 1.0 - greatest)
     tilts = " and ".join(number(tilt) for tilt in own[0].tilt_mrad)
     if held == 0.0:
-        said = f"The coupling does not lock: its hubs tilt by {tilts} mrad and slide, so they hold no axial force"
+        said = f"The coupling does not lock: its hubs tilt by {tilts} mrad and slide"
     else:
-        said = f"The coupling can lock: at tilts of {tilts} mrad its hubs hold {percent(held)} of their axial friction"
-    if locked >= 1.0:
-        held_fast = "locked by dirt or wear, one helix would lift off"
-    else:
-        held_fast = f"locked by dirt or wear, it would carry {percent(locked)} (K_γ = {number(2.0 * locked)})"
-    sliding = f"the more loaded helix carries {percent(without)} (K_γ = {number(2.0 * without)}) while it slides"
-    return f"{said}; {sliding}; {held_fast}."
+        said = f"The coupling can lock: tilted by {tilts} mrad, its hubs hold {percent(held)} of their axial friction"
+    sliding = f"While it slides, the more loaded helix carries {percent(without)} (K_γ = {number(2.0 * without)})"
+    stuck = (
+        f"carries {percent(locked)} (K_γ = {number(2.0 * locked)})"
+        if locked < 1.0
+        else "carries all, the other lifts off"
+    )
+    return f"{said}. {sliding}; if dirt or wear lock it, that helix {stuck}."
 
 
 WORDS = Words(
