@@ -58,7 +58,7 @@ class DesignPage(UnitPage):
     @cached_property
     def is_double_helical(self) -> bool:
         """Whether the case has two helices, each with a correction of its own."""
-        return value_at(self.asked.body, "gears.gap_width_mm") is not None
+        return any(name == "gears.gap_width_mm" and text for name, text in self.asked.pairs)
 
     @property
     def ground(self) -> tuple[tuple[str, tuple[str, ...], float, float], ...]:
