@@ -8,7 +8,7 @@ from app.rexs import table
 from app.rexs.model import Component
 from app.rexs.power import Pair, PowerFlow
 from app.rexs.reading import Reading
-from app.rexs.stages import OFF_CENTRE, SAME, TORQUE, StageDraft
+from app.rexs.stages import OFF_CENTRE, ROLES, SAME, TORQUE, StageDraft
 
 GAP, SECOND = "gears.gap_width_mm", "modifications.second_helix"
 AGREEING = {table.MODULE: "modules", table.HELIX_ANGLE: "helix angles", table.STAGE[0]: "centre distances"}
@@ -87,6 +87,7 @@ def joined(stage: StageDraft, twin: StageDraft) -> StageDraft:
         return lower
     _widths(lower, upper, *faces)
     _torque(lower, upper)
+    _axial(lower)
     for name in OF_ONE_HELIX:
         path = f"modifications.{name}"
         own, theirs = (draft.fields.get(path, 0.0) for draft in (lower, upper))
@@ -127,6 +128,33 @@ def _torque(lower: StageDraft, upper: StageDraft) -> None:
             "axial balance divides it, and a division that the file states is not used"
         )
         lower.note(TORQUE, torque, reason)
+
+
+def _axial(lower: StageDraft) -> None:
+    """Take the shaft that no bearing holds along its axis as the floating one, and the external forces along it."""
+    reading, model = lower.reading, lower.reading.model
+    held = [
+        any(
+            reading.text(bearing, table.HOLDS_ALONG_U) not in table.HOLDS_NOTHING
+            for bearing in model.related("side", "inner_part", shaft.id, "assembly")
+        )
+        for shaft in lower.shafts
+    ]
+    floating = int(lower.teeth[1] < lower.teeth[0])
+    if sum(held) == 1:
+        floating = held.index(False)
+        lower.put("floating_shaft", ROLES[floating], lower.shafts[floating])
+    elif all(held):
+        message = (
+            "bearings hold both shafts along their axes, but of double-helical gears one shaft floats; that of the "
+            "gear with fewer teeth is taken"
+        )
+        reading.find("both_shafts_held", lower.shafts[floating], None, message)
+    shaft = lower.shafts[floating]
+    loads = (part for part in model.parts_of(shaft.id) if part.type == "external_load")
+    if forces := lower.values_of(loads, table.AXIAL_FORCE):
+        force = lower.along(shaft) * sum(value for value, _ in forces)
+        lower.put(table.AXIAL_FORCE.field, force, forces[0][1], table.AXIAL_FORCE.name)
 
 
 def _differences(lower: StageDraft, upper: StageDraft) -> None:

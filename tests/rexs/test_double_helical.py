@@ -8,7 +8,7 @@ import pytest
 from app.rexs.answer import with_results
 from app.rexs.document import read
 from tests.rexs.test_fields import MOST_BYTES, PUMPING, SCUFFING, TRAIN, answer, stage_of
-from tests.rexs.units import LOWER, UPPER, Unit, Value, double_helical, gears, modified
+from tests.rexs.units import LOWER, UPPER, Unit, Value, double_helical, gears, held, modified
 
 SHARE = "custom_tribodrive_share"
 
@@ -137,6 +137,21 @@ def test_torques_of_the_gears_add_up() -> None:
     lacking = stage_of(unit)
     assert "pinion_torque_n_m" not in lacking["requests"][SCUFFING]["load"]
     assert "load.pinion_torque_n_m" in {each["field"] for each in lacking["missing"]}
+
+
+def test_the_shaft_that_no_bearing_holds_floats() -> None:
+    unit = double_helical()
+    unit.of(of_type(unit, "external_load")[0])["force_u_direction"] = (-5.0, "kN")
+    wheel = held(unit, 1)
+    requests = stage_of(unit)["requests"]
+    assert (requests[TRAIN]["floating_shaft"], requests[TRAIN]["operation"]["axial_force_n"]) == ("pinion", -5e3)
+    assert requests[SCUFFING]["load"]["axial_force_n"] == -5e3
+    held(unit, 0)
+    assert "one shaft floats" in finding(unit, "both_shafts_held")
+    unit.of(wheel)["axial_force_absorption"] = ("no_direction", "none")
+    train = stage_of(unit)["requests"][TRAIN]
+    assert train["floating_shaft"] == "wheel"
+    assert "axial_force_n" not in train["operation"], "the force acts on the shaft that is held"
 
 
 def test_results_of_each_helix_are_written_to_its_stage() -> None:

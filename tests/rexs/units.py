@@ -310,3 +310,17 @@ def modified(unit: Unit, stage: int, kind: str, **attributes: tuple[Value, str])
     ]
     for flank in flanks:
         unit.relate("reference", origin=flank, referenced=unit.add(kind, **attributes))
+
+
+def held(unit: Unit, place: int) -> int:
+    """Add a bearing that holds the pinion's (0) or the wheel's shaft (1) along its axis, and return its id."""
+    shafts, casing = (
+        [each["id"] for each in unit.components if each["type"] == name] for name in ("shaft", "gear_casing")
+    )
+    bearing = unit.add(
+        "concept_bearing",
+        radial_force_absorption=(False, "none"),
+        axial_force_absorption=("both_directions", "none"),
+    )
+    unit.relate("side", assembly=bearing, inner_part=shafts[place], outer_part=casing[0])
+    return bearing
