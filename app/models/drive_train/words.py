@@ -52,7 +52,7 @@ SHAFT = group(results.ShaftResult, "ShaftSummary", without=("curves",))
 component(results.ShaftResult, "ShaftState", base=SHAFT)
 GAPS = group(results.Misalignment, "MisalignmentSummary", without=("curves",), shaft_slope=View(headline=3))
 component(results.Misalignment, "MisalignmentState", base=GAPS)
-HELIX = group(results.HelixResult, "HelixSummary", fields={"misalignment": GAPS})
+HELIX = group(results.HelixResult, "HelixSummary", stands=False, fields={"misalignment": GAPS})
 STATE_DERIVED = group(derived.Derived, "StateDerived", only=("temperatures",))
 component(derived.Derived, "DriveTrainDerived", base=MESH_DERIVED)
 SUMMARY = group(
