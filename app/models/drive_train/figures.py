@@ -261,6 +261,10 @@ def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     title = "axial load towards +Z: of the mesh, and its bounds with the couplings"
     x = Axis(title, "N", magnitude=False, symbol="F_a")
     finding = f"friction can reverse the load of the {reversing[0]}" if reversing else "no load reverses"
+    if result.axial is not None:
+        carried = [(row.name, row.bounds) for row in rows if row.bounds is not None]
+        texts = [f"{name} carries {' to '.join(number(end / NEWTONS) for end in ends)} kN" for name, ends in carried]
+        finding = "; ".join([f"{result.axial.floating_shaft} floats", *texts])
     return Figure(finding, [Panel(x=x, y=Axis("shaft"), rows=rows, levels=levels)])
 
 
