@@ -88,7 +88,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
             *spread.warnings,
             *coupling_notices(inputs, couplings, warnings_of(system, equilibrium)),
             *shaft_notices(inputs, shafts),
-            *load_notices(inputs, result.load),
+            *load_notices(inputs, [own.result.load for own in faces]),
             *loss_notices(inputs, losses),
             *(() if axial is None else helix_notices(inputs, axial, heat)),
             *oil_notices(inputs.mesh, spread.path_of_contact, face.ran),

@@ -1,6 +1,6 @@
 """Warnings of a drive train: results out of range, assumptions that matter, inputs that look wrong."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 from solvers.contact.notices import high_pressure
@@ -47,7 +47,7 @@ def shaft_notices(inputs: DriveTrainInputs, shafts: tuple[ShaftResult, ShaftResu
             )
             yield Notice("bearing_loss_left_out", message, f"{name}.bearings", rank="note")
         thrust = result.thrust
-        if thrust.reverses:
+        if thrust.reverses and inputs.mesh.distribution.gears.helices == 1:  # two helices leave no thrust to reverse
             message = (
                 f"the friction of the coupling can reverse the thrust, which ranges from {thrust.lower:.0f} to "
                 f"{thrust.upper:.0f} N"
@@ -90,20 +90,23 @@ def _film_notices(
         yield Notice("thin_film", message, f"{field}.radial_clearance")
 
 
-def load_notices(inputs: DriveTrainInputs, load: FaceLoad) -> Iterator[Notice]:
-    """Warn if the load is largest at an end of the face, or if flanks lift off.
+def load_notices(inputs: DriveTrainInputs, loads: Sequence[FaceLoad]) -> Iterator[Notice]:
+    """Warn if the load of a face is largest at its end, or if flanks lift off.
 
     Also warn if heat deforms the gears and the inputs do not give the wall response.
     """
-    if load.face_load_at in {0.0, 1.0}:
-        message = f"the load is largest at the end y/b = {load.face_load_at:.0f} of the face"
-        yield Notice("edge_load", message, "mesh.distribution.modifications.helix_slope")
-    if load.contact_fraction < LIFTED:
-        message = (
-            f"only a share of {load.contact_fraction:.2f} of the contact length carries load; at the other places the "
-            "flanks lift off"
-        )
-        yield Notice("lift_off", message, "mesh.distribution.modifications")
+    for number, load in enumerate(loads, start=1):
+        where = f"helix {number}: " if len(loads) > 1 else ""
+        slope = "second_helix.helix_slope" if number > 1 else "helix_slope"
+        if load.face_load_at in {0.0, 1.0}:
+            message = f"{where}the load is largest at the end y/b = {load.face_load_at:.0f} of the face"
+            yield Notice("edge_load", message, f"mesh.distribution.modifications.{slope}")
+        if load.contact_fraction < LIFTED:
+            message = (
+                f"{where}only a share of {load.contact_fraction:.2f} of the contact length carries load; at the other "
+                "places the flanks lift off"
+            )
+            yield Notice("lift_off", message, "mesh.distribution.modifications")
     if inputs.effects.thermal and inputs.heat.wall_response is None:
         message = (
             "the wall response is not given and is assumed to be 0.5. Real values lie between 0.2 and 1 and are known "

@@ -261,6 +261,10 @@ def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     title = "axial load towards +Z: of the mesh, and its bounds with the couplings"
     x = Axis(title, "N", magnitude=False, symbol="F_a")
     finding = f"friction can reverse the load of the {reversing[0]}" if reversing else "no load reverses"
+    if result.axial is not None:
+        carried = [(row.name, row.bounds) for row in rows if row.bounds is not None]
+        texts = [f"{name} carries {' to '.join(number(end / NEWTONS) for end in ends)} kN" for name, ends in carried]
+        finding = "; ".join([f"{result.axial.floating_shaft} floats", *texts])
     return Figure(finding, [Panel(x=x, y=Axis("shaft"), rows=rows, levels=levels)])
 
 
@@ -366,9 +370,12 @@ def curve_over_the_flow(_: DriveTrainInputs, result: DriveTrainResult) -> FlowCu
 def oil_flow(inputs: DriveTrainInputs, result: DriveTrainResult, curve: FlowCurve) -> Figure:
     """Draw the temperatures of flanks and drained oil, and the safety factor, over the oil flow to the gears."""
     scuffing, oil, used = None, oil_temperature(inputs), result.derived.temperatures
-    if result.safety is not None and result.safety.minimum and used.scuffing is not None and used.bulk is not None:
-        scuffing = (used.scuffing, oil + (used.scuffing - oil) / result.safety.minimum - used.bulk)
-    return heat_balance.over_the_oil_flow(heat_balance.heat_of(result.heat), curve, oil, scuffing, used.origin)
+    heat, bulk = heat_balance.heat_of(result.heat), used.bulk
+    if result.safety is not None and result.safety.minimum and used.scuffing is not None and bulk is not None:
+        if result.helices is not None:  # the curve shows the unit, above which the decisive helix stays as now
+            bulk = float(used.origin.bulk_at(np.array((heat.pinion.flank + heat.wheel.flank) / 2)))
+        scuffing = (used.scuffing, oil + (used.scuffing - oil) / result.safety.minimum - bulk)
+    return heat_balance.over_the_oil_flow(heat, curve, oil, scuffing, used.origin)
 
 
 LOAD_ALONE = Declaration("face-load", "Load along the face", OWN, partial(face_load, others={}))
