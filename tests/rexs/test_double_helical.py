@@ -56,6 +56,39 @@ def test_the_order_in_the_file_does_not_matter() -> None:
     assert stage_of(unit)["helices"] == [LOWER, UPPER]
 
 
+def from_the_other_end(unit: Unit) -> None:
+    """Describe the same unit with u axes that point the other way; slopes then count from the other faces."""
+    for each in unit.components:
+        own = each["attributes"]
+        for name in ("u_coordinate_on_shaft", "u_coordinate_on_shaft_inner_side"):
+            if name in own:
+                own[name] = (840.0 - own[name][0] - own.get("length", (0.0,))[0], "mm")
+        if each["type"] == "shaft":
+            own["support_vector"] = ([840.0, *own["support_vector"][0][1:]], "mm")
+            own["u_axis_vector"] = ([-1.0, 0.0, 0.0], "mm")
+        for name in ("rotational_speed", "helix_slope"):
+            if name in own:
+                own[name] = (-own[name][0], own[name][1])
+
+
+def test_from_the_other_end_the_helices_change_places() -> None:
+    unit = double_helical()
+    modified(unit, LOWER, "helix_slope", helix_slope=(20.0, "mum"))
+    modified(unit, UPPER, "helix_slope", helix_slope=(5.0, "mum"))
+    before = stage_of(unit)["requests"][TRAIN]
+    from_the_other_end(unit)
+    stage = stage_of(unit)
+    after = stage["requests"][TRAIN]
+    assert stage["helices"] == [UPPER, LOWER]
+    assert (after["gears"]["hand"], after["operation"]["rotation"]) == ("left", "clockwise"), "the apex leads as before"
+    assert after["face_start_mm"] == 840.0 - (before["face_start_mm"] + 280.0)
+    slopes = [
+        (each["helix_slope_um"], each["second_helix"]["helix_slope_um"])
+        for each in (before["modifications"], after["modifications"])
+    ]
+    assert slopes[0] == slopes[1][::-1]
+
+
 def test_unequal_widths_are_found_and_the_smaller_one_is_taken() -> None:
     unit = double_helical()
     for gear in gears(unit, LOWER):

@@ -4,6 +4,7 @@ from typing import Any
 
 import pytest
 
+from app.calculations import BY_PATH
 from app.examples import examples
 from app.studies.kinds.corners import Corners
 from app.studies.kinds.design import Design
@@ -12,7 +13,9 @@ from app.studies.kinds.spectrum import Spectrum
 from app.studies.kinds.sweep import Sweep
 from app.studies.points import needs_film
 from app.studies.requests import DRIVE_TRAIN
+from solvers.drive_train.checks import check_inputs
 from solvers.drive_train.uncertainty import MOST_CORNERS
+from solvers.scuffing.model import mesh_of
 from tests.support import studies
 from tests.support.requests import GONE, changed
 from tests.support.studies import Planner, fault_of
@@ -82,6 +85,16 @@ def test_a_path_of_both_helices_is_refused() -> None:
     body = {"endpoint": DRIVE_TRAIN, "request": UNIT, "vary": [{"path": THRUST, "values": [0.0]}]}
     assert fault_of(Sweep, {**body, "outputs": ["helices.safety"]})[:2] == ("/outputs/0", "unknown_output")
     assert fault_of(Sweep, {**body, "outputs": ["helices.0.safety"]})[:2] == ("/outputs/0", "not_scalar")
+
+
+@pytest.mark.parametrize("path", ["gears.gap_width_mm", "gears.face_width_mm", "face_start_mm"])
+def test_a_face_that_moves_by_its_tolerance_stays_above_its_sections(path: str) -> None:
+    study = Sensitivity({"endpoint": DRIVE_TRAIN, "request": UNIT, "inputs": [path]}, 2500, 30.0)
+    (moved,) = study.perturbations
+    assert len(moved.places) == 4
+    for place in moved.places:
+        unit = BY_PATH[DRIVE_TRAIN].request.model_validate(changed(UNIT, {path: place})).inputs()
+        check_inputs(unit, mesh_of(unit.mesh.distribution).path)
 
 
 @pytest.mark.ci

@@ -233,25 +233,22 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
         """Yield the solver's sections of the shaft.
 
         If a section under the teeth has no diameter, the diameter that carries the torsion is used. Raises InvalidInput
-        `section_diameter` if a section has no diameter and is not under the teeth.
+        `section_diameter` if a section has no diameter and is not under the teeth, or reaches from helix to helix.
         """
         teeth = gears.pinion if name == "pinion_shaft" else gears.wheel
-        helices = [
-            (start, start + gears.face_width)
-            for start in (face_start, face_start + gears.total_width - gears.face_width)
-        ]
+        starts = {face_start, face_start + gears.total_width - gears.face_width}
+        helices = [(start, start + gears.face_width) for start in starts]
         position = UNITS["mm"].to_si(self.start_mm)
         for k, cylinder in enumerate(self.sections):
             left_out = cylinder.outer_diameter_mm is None
             default = {"outer_diameter": si.torsion_diameter(gears, teeth)} if left_out else {}
             section = cylinder.si(si.ShaftSection, **default)
             end = position + section.length
-            toothed = any(position < high - si.COINCIDENT and end > low + si.COINCIDENT for low, high in helices)
-            in_gap = position < helices[1][0] - si.COINCIDENT and end > helices[0][1] + si.COINCIDENT
-            if left_out and (in_gap or not toothed):
+            toothed = sum(position < high - si.COINCIDENT and end > low + si.COINCIDENT for low, high in helices)
+            if left_out and toothed != 1:
                 message = (
                     "the outer diameter may be left out only under the teeth"
-                    + (", not in the gap between the helices" if in_gap else "")
+                    + (", not in the gap between the helices" if gears.helices > 1 else "")
                     + f"; give the outer diameter of section {k}"
                 )
                 raise InvalidInput("section_diameter", message, f"{name}.sections.{k}.outer_diameter")
