@@ -123,13 +123,10 @@ def _locks(response: Any) -> str:
         said = f"The coupling does not lock: its hubs tilt by {tilts} mrad and slide"
     else:
         said = f"The coupling can lock: tilted by {tilts} mrad, its hubs hold {percent(held)} of their axial friction"
-    sliding = f"While it slides, the more loaded helix carries {percent(without)} (K_γ = {number(2.0 * without)})"
-    stuck = (
-        f"carries {percent(locked)} (K_γ = {number(2.0 * locked)})"
-        if locked < 1.0
-        else "carries all, the other lifts off"
-    )
-    return f"{said}. {sliding}; if dirt or wear lock it, that helix {stuck}."
+    free, fast = (f"one helix carries {percent(share)} (K_γ = {number(2.0 * share)})" for share in (without, locked))
+    free = "both helices carry half" if without == 0.5 else free
+    fast = "one helix lifts off" if locked == 1.0 else fast
+    return f"{said}. While it slides, {free}; if dirt or wear lock it, {fast}."
 
 
 WORDS = Words(
