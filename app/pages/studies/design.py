@@ -79,8 +79,12 @@ class DesignPage(UnitPage):
 
     @property
     def left_alone(self) -> tuple[str, ...]:
-        """The uncertain inputs with least influence. Of two helices, the thrust decides which one carries more."""
-        return ("pinion clearance", "wheel clearance", "friction" if self.is_double_helical else "thrust fraction")
+        """The uncertain inputs with least influence, so that a search takes minutes.
+
+        Of two helices, the thrust decides which one carries more; friction and wall response act on both alike.
+        """
+        weak = ("friction", "wall response") if self.is_double_helical else ("thrust fraction",)
+        return ("pinion clearance", "wheel clearance", *weak)
 
     def body(self) -> dict[str, Any]:
         """Return the body of the study's request.
