@@ -49,7 +49,7 @@ class Declaration:
         if response.status == "no_solution":
             raise NoFigure("no_solution", "The calculation has no solution, so there is nothing to draw")
         if not self.is_asked(request):
-            wanted = f"Set {self.asked_by} to heat_balance" if self.asked_if else f"Give the section {self.asked_by}"
+            wanted = f"Set {self.asked_by} to heat_balance" if self.asked_if else f"Give {self.asked_by}"
             raise NoFigure("not_asked", f"{wanted} to have this figure", self.asked_by)
         inputs, result = request.inputs(), shown(response.result)
         computed = () if self.compute is None else (self.compute(inputs, result),)

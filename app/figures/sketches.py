@@ -5,10 +5,10 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from app.figures.data import Axis, Figure, Hue, Line, Mark, Panel, Role, Values, values
+from app.figures.data import Axis, Figure, Hue, Line, Mark, Panel, Role, Span, Values, values
 from app.figures.units import MM
 from app.figures.wording import number
-from solvers.drive_train.inputs import Bearing, DriveTrainInputs, JournalBearing, Shaft
+from solvers.drive_train.inputs import Bearing, DriveTrainInputs, JournalBearing, Shaft, floating_shaft
 from solvers.gears.gear import Gear, fillet_point, root_profile
 from solvers.gears.inputs import GearPairInputs, GearTeeth
 from solvers.gears.pair import PathOfContact, meshing_path
@@ -101,7 +101,7 @@ def shafts(inputs: DriveTrainInputs, _: object) -> Figure:
     """Draw the shafts with their gears, bearings and coupling hubs in the plane of both axes."""
     gears = inputs.mesh.distribution.gears
     pair = meshing_path(gears).pair
-    face_end, distance = inputs.face_start + gears.face_width, pair.centre_distance
+    distance, faces = pair.centre_distance, faces_of(inputs)
     shapes, lines, marks = list[Line](), list[Line](), list[Mark]()
     for name, height, shaft, gear in zip(
         ("pinion", "wheel"), (0.0, distance), inputs.shafts, (pair.pinion, pair.wheel), strict=True
@@ -109,7 +109,7 @@ def shafts(inputs: DriveTrainInputs, _: object) -> Figure:
         ends = shaft.start + np.cumsum([0.0, *(section.length for section in shaft.sections)])
         for (start, end), section in zip(pairwise(ends), shaft.sections, strict=True):
             shapes.append(_box("shafts", start, end, height, section.outer_diameter / 2.0, Hue.GREY))
-        shapes.append(_box("gears", inputs.face_start, face_end, height, gear.tip_radius, Hue.SKY))
+        shapes += [_box("gears", start, end, height, gear.tip_radius, Hue.SKY) for start, end in faces]
         hubs = [coupling for coupling in inputs.couplings if coupling.shaft == name]
         for hub in hubs:
             design, place, half = hub.coupling, hub.position, hub.coupling.face_width / 2.0
@@ -122,17 +122,44 @@ def shafts(inputs: DriveTrainInputs, _: object) -> Figure:
             hub.position + hub.coupling.hub_distance * (1.0 if hub.machine_side == "plus" else -1.0) for hub in hubs
         ]
         marks += [Mark(machine / MM, height / MM, "machine", Hue.ORANGE) for machine in machines]
+        if len(faces) > 1 and name == floating_shaft(inputs):
+            marks.append(Mark(ends[-1] / MM, height / MM, "floats", Hue.GREEN))
         far = values([min(shaft.start, shaft.end, *machines) / MM, max(shaft.start, shaft.end, *machines) / MM])
         lines.append(Line("axis", far, values([height / MM] * 2), Hue.GREY, Role.REFERENCE, named=False))
+    spans = []
+    if len(faces) > 1:
+        (_, first), (second, _) = faces
+        helix, between = (number(width / MM, digits=4) for width in (gears.face_width, second - first))
+        spans = [Span(first / MM, second / MM, f"{helix} + {between} + {helix} mm")]
     panel = Panel(
         x=Axis("position along Z", "mm", magnitude=False),
         y=Axis("height above the axis of the pinion", "mm", magnitude=False),
         shapes=shapes,
         lines=lines,
         marks=marks,
+        spans=spans,
         equal=True,
     )
-    return Figure(f"pinion below, wheel {number(distance / MM, 'mm', digits=4)} above it", [panel])
+    finding = f"pinion below, wheel {number(distance / MM, 'mm', digits=4)} above it"
+    if len(faces) > 1:
+        finding = f"{widths(gears)}; {finding}"
+    return Figure(finding, [panel])
+
+
+def faces_of(inputs: DriveTrainInputs) -> list[tuple[float, float]]:
+    """Return the ends of each helix on the axis of the unit [m]."""
+    gears = inputs.mesh.distribution.gears
+    step = gears.face_width + (gears.gap_width or 0.0)
+    starts = [inputs.face_start + place * step for place in range(gears.helices)]
+    return [(start, start + gears.face_width) for start in starts]
+
+
+def widths(gears: GearPairInputs) -> str:
+    """Return the widths of double-helical gears as text: of both helices, of the gap, and of all together."""
+    helix, gap, total = (
+        number(width / MM, digits=4) for width in (gears.face_width, gears.gap_width or 0.0, gears.total_width)
+    )
+    return f"two helices of {helix} mm and a gap of {gap} mm, together {total} mm"
 
 
 def _box(title: str, start: float, end: float, height: float, radius: float, hue: Hue) -> Line:

@@ -23,6 +23,7 @@ NAMES = (
     "scuffing",
     "micropitting",
     "drive-train",
+    "double-helical",
     "heat-balance",
     "practice",
     "spectrum",

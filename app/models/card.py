@@ -75,11 +75,13 @@ class Words:
     """What pages, studies and files say of an endpoint's answers. Paths are dotted paths of the answer.
 
     verdicts       judges headline numbers that need more than a limit, by path
-    conclusion     the answer in words
+    conclusion     the answer in words, one statement a line
+    belongs        what headline numbers belong to, by path, such as the helix that decides
     remarks        how well results are known, by path
     losses         powers that a load spectrum averages
     scuffing       the temperatures that a load spectrum compares unless it names limits
-    of_the_film    outputs that need the thermal film, beside those with `thermal_ehl` in their path; None: no film
+    of_the_film    outputs that need the thermal film (`*` for an index), beside those with `thermal_ehl` in their path;
+                   None: no film
     from_file      what a request takes from a REXS file; None: files make no such request
     to_file        results that go back into a REXS file
     chapters       the chapters of the manual about optional sections, by section
@@ -87,6 +89,7 @@ class Words:
 
     verdicts: Callable[[Any], dict[str, Verdict]] = _nothing
     conclusion: Callable[[Any], str] = _silence
+    belongs: Callable[[Any], dict[str, str]] = _nothing
     remarks: Callable[[Any], dict[str, str]] = _nothing
     losses: tuple[str, ...] = ()
     scuffing: ScuffingPaths | None = None

@@ -1,5 +1,6 @@
 """An answer as people read it: headline numbers with verdicts, and all numbers with symbol and unit."""
 
+import re
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 from itertools import groupby
@@ -15,8 +16,11 @@ from app.schema.model import Documented
 
 NOT_RESULTS = GROUNDS | {"status", "warnings", "residuals"}
 DIGITS = 3  # significant digits of a headline number
-SHAFTS = ("pinion shaft", "wheel shaft")
-"""Titles of the shafts, in the order of the list of shafts."""
+ITEMS = {"shafts": ("pinion shaft", "wheel shaft"), "helices": ("helix 1", "helix 2")}
+"""Titles of the items of lists."""
+BOTH = " and ".join(ITEMS["helices"])
+_one_helix = re.compile("|".join(ITEMS["helices"]))
+_of_helix = re.compile(r"(?<![^.])helices\.\d+\.")
 LEVELS = ("plain", "good", "near", "bad")
 WELL_ABOVE = 2.0  # a value of at least this multiple of a lower limit is well above the limit
 UNCHANGED = 5e-6  # relative change; a smaller change counts as no change
@@ -79,10 +83,9 @@ def _entries(member: Leaf | Branch, value: Any, path: str, around: str) -> Itera
 
 
 def _title_of_item(member: Branch, index: int) -> str:
-    """Return the title of an item of a list, such as "wheel shaft". Items other than shafts have numbers."""
-    if member.path.rpartition(".")[2] == "shafts" and index < len(SHAFTS):
-        return SHAFTS[index]
-    return f"{member.title} {index + 1}"
+    """Return the title of an item of a list, such as "wheel shaft"; most have numbers."""
+    titles = ITEMS.get(member.path.rpartition(".")[2], ())
+    return titles[index] if index < len(titles) else f"{member.title} {index + 1}"
 
 
 def values_by_path(response: Documented | None) -> dict[str, Any]:
@@ -91,16 +94,41 @@ def values_by_path(response: Documented | None) -> dict[str, Any]:
 
 
 def groups(response: Documented, before: Documented | None = None) -> dict[str, list[ResultRow]]:
-    """Return a table of scalars and short lists for each group of an answer. The keys are the titles of the groups."""
+    """Return a table of scalars and short lists for each group of an answer. The keys are the titles of the groups.
+
+    The values of both helices of a double-helical pair stand in one row.
+    """
     old, remarks = values_by_path(before), words_of(response).remarks(response)
     tables: dict[str, list[ResultRow]] = {}
+    beside: dict[str, int] = {}  # places in the tables of rows for both helices
     for group, leaf, path, value in entries(response):
         if ITEM in leaf.path and leaf.detail != "summary":  # a long list, which a figure shows
             continue
         if leaf.is_scalar or (leaf.declared.index and not leaf.axes and leaf.dimensions == 1):
-            row = _row(leaf, path, value, old.get(path), label=leaf.declared.title)
-            tables.setdefault(group or "result", []).append(replace(row, remark=remarks.get(path, "")))
+            row = replace(
+                _row(leaf, path, value, old.get(path), label=leaf.declared.title), remark=remarks.get(path, "")
+            )
+            shared, found = _of_helix.subn("", path)
+            rows = tables.setdefault(_one_helix.sub(BOTH, group) if found else group or "result", [])
+            if found and shared in beside:
+                rows[beside[shared]] = _side_by_side(rows[beside[shared]], row)
+            else:
+                if found:
+                    beside[shared] = len(rows)
+                rows.append(row)
     return tables
+
+
+def _side_by_side(first: ResultRow, second: ResultRow) -> ResultRow:
+    """Return one row with the values of two helices."""
+    change = first.change if first.change == second.change else f"{first.change}, {second.change}"
+    return replace(
+        first,
+        items=(first.value, second.value),
+        unit=first.unit or second.unit,
+        before=(", ".join(first.before), ", ".join(second.before)),
+        change=change,
+    )
 
 
 def differences(request: type[Documented], response: Response, before: Response) -> list[ResultRow]:
@@ -199,7 +227,7 @@ def cards(response: Documented, inputs: dict[str, Any], before: Documented | Non
     warning makes the answer doubtful, the level `good` is lowered to `near`.
     """
     values, old = values_by_path(response), values_by_path(before)
-    judged = verdicts(response)
+    judged, belongs = verdicts(response), words_of(response).belongs(response)
     doubtful = any(warning.rank != "note" for warning in response.warnings)
     rows = []
     for _, alike in groupby(headlines(type(response)), key=lambda leaf: leaf.view.headline):
@@ -210,7 +238,8 @@ def cards(response: Documented, inputs: dict[str, Any], before: Documented | Non
         value = values.get(leaf.path)
         row = _row(leaf, leaf.path, value, old.get(leaf.path), label=leaf.title, digits=DIGITS)
         row = replace(row, items=_with_band(row.items, leaf, values), before=_with_band(row.before, leaf, old))
-        rows.append(replace(row, unit="" if value is None else row.unit, level=level, remark=verdict))
+        remark = ": ".join(part for part in (belongs.get(leaf.path, ""), verdict) if part)
+        rows.append(replace(row, unit="" if value is None else row.unit, level=level, remark=remark))
     return rows
 
 
@@ -220,7 +249,7 @@ def verdicts(response: Documented) -> dict[str, Verdict]:
 
 
 def conclusion(response: Documented) -> str:
-    """Return the conclusion of an answer in words; empty if this kind of calculation has no conclusion."""
+    """Return the conclusion of an answer in words, one statement a line; empty if there is none."""
     return "" if response.status == "no_solution" else words_of(response).conclusion(response)
 
 

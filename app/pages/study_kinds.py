@@ -64,7 +64,7 @@ DESIGN = StudyLink(
     "design",
     "What to grind",
     "the flank correction whose worst corner is best",
-    CORNERS.controls | _named(("low.", "high."), "012") | {"trials"},
+    CORNERS.controls | _named(("low.", "high."), "01234") | {"trials"},
     DRIVE_TRAIN,
 )
 LINKS = (VARY, INFLUENCE, SPECTRUM, CORNERS, DESIGN)

@@ -6,6 +6,7 @@ table          the names of units and attributes in REXS, and the request fields
 reading        attributes as numbers, and the draft of a request with its missing and assumed fields
 power          speeds and torques of all shafts
 stages         gears, load and materials of one mesh
+helices        two stages of a file that are the helices of double-helical gears
 lubrication    oil, temperatures and friction of a mesh
 modifications  modifications of the flanks of a mesh
 drive_train    the drive-train request of a stage, with its shafts and bearings

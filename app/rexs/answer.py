@@ -1,7 +1,7 @@
 """What a worker makes from the file of a gear unit: the answer of /v1/rexs, a page, or the file with added results."""
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from hashlib import sha256
 from pathlib import Path
 from typing import Annotated, Any
@@ -52,12 +52,16 @@ class Stage(BaseModel):
 
     id: Annotated[int, Output("component in the file")]
     name: Annotated[str, Output("its name there")]
+    helices: Annotated[
+        list[int] | None,
+        Output("the two stages of the file that are the helices of double-helical gears, in the order of Z; else null"),
+    ]
     pinion: Annotated[
         int, Output("pinion of the requests: the driving gear, or the smaller gear if no gear is known to drive")
     ]
     wheel: Annotated[int, Output("the other gear")]
     driver: Annotated[int | None, Output("driving gear; null if power and speed do not follow from the file")]
-    hand: Annotated[str | None, Output("hand of the pinion's helix")]
+    hand: Annotated[str | None, Output("hand of the pinion's helix; of double-helical gears, of that at the lower Z")]
     requests: Annotated[dict[str, dict[str, Any]], Output("requests by the address of their endpoint")]
     cases: Annotated[list[Case], Output("load spectrum of the file")]
     spectra: Annotated[
@@ -102,6 +106,7 @@ def unit_html(content: bytes, root: str, most_bytes: int, name: str = "") -> byt
 def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | None, deadline_s: float) -> File:
     """Calculate a stage, and return the file with the results of the stage.
 
+    Of double-helical gears, `stage` is either of their two stages, and both get results.
     `request` is the request that the user edited. If `request` is None, the request is made from the file. It is then a
     drive-train request if the file describes a drive train, and otherwise a request of /v1/scuffing.
 
@@ -109,7 +114,8 @@ def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | N
     the request is not valid.
     """
     document = read(content, most_bytes)
-    row = next((row for row in gear_unit(document.model)["stages"] if row["id"] == stage), None)
+    rows = ((row, row["helices"] or [row["id"]]) for row in gear_unit(document.model)["stages"])
+    row, helices = next(((row, helices) for row, helices in rows if stage in helices), (None, []))
     if row is None:
         raise Unprocessable("unknown_stage", f"the file has no stage {stage} that can be calculated", None)
     if request is None:
@@ -121,15 +127,25 @@ def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | N
     inputs = validated(calculation.request, content_of(request))
     refuse_endless(calculation, inputs, deadline_s)
     answer = evaluate(calculation, inputs).model_dump(mode="json", exclude_unset=True)
-    return with_answer(document, stage, endpoint, answer)
+    return with_answer(document, helices, endpoint, answer)
 
 
-def with_answer(document: Document, stage: int, endpoint: str, answer: dict[str, Any]) -> File:
-    """Return the file with new attributes of the stage."""
-    major, written = int(document.model.version.split(".")[0]), []
-    for path, name, unit in BY_PATH[endpoint].words.to_file:
-        if (value := value_at(answer, path)) is not None:
-            custom = major < table.STANDARD_FROM.get(name, major + 1)
-            written.append(Attribute(f"{table.CUSTOM if custom else ''}{name}", unit, value))
-    written += [Attribute(f"{table.CUSTOM}{name}", "none", answer[name]) for name in ("status", "case")]
-    return with_attributes(document.file, stage, written)
+def with_answer(document: Document, stages: Sequence[int], endpoint: str, answer: dict[str, Any]) -> File:
+    """Return the file with new attributes of the stage, or of both stages of double-helical gears in the order of Z.
+
+    Each stage gets the results of its helix; those of the whole unit, such as its losses, are written to the first
+    stage only. An answer of /v1/scuffing is that of the more loaded helix, and is written to both.
+    """
+    major, file = int(document.model.version.split(".")[0]), document.file
+    helices = answer.get("helices") or ()
+    for place, stage in enumerate(stages):
+        own, written = helices[place] if helices else answer, []
+        for path, name, unit in BY_PATH[endpoint].words.to_file:
+            is_own = path.partition(".")[0] in own
+            value = value_at(own if is_own else answer, path) if is_own or place == 0 else None
+            if value is not None:
+                custom = major < table.STANDARD_FROM.get(name, major + 1)
+                written.append(Attribute(f"{table.CUSTOM if custom else ''}{name}", unit, value))
+        written += [Attribute(f"{table.CUSTOM}{name}", "none", answer[name]) for name in ("status", "case")]
+        file = with_attributes(file, stage, written)
+    return file

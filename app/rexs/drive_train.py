@@ -11,6 +11,7 @@ from math import atan2, degrees
 from typing import Any, NamedTuple
 
 from app.rexs import table
+from app.rexs.helices import helices_of
 from app.rexs.model import Component
 from app.rexs.reading import Vector
 from app.rexs.stages import ROLES, StageDraft
@@ -46,9 +47,10 @@ def add_drive_train(stage: StageDraft) -> bool:
 
 def _obstacles(stage: StageDraft) -> Iterator[tuple[Component, str]]:
     """Yield the reasons why the file does not describe a drive train that can be calculated."""
+    own = {gear.id for helix in helices_of(stage) for gear in helix.gears}
     for gear, shaft, place in zip(stage.gears, stage.shafts, (0, 1), strict=True):
         parts = stage.reading.model.parts_of(shaft.id)
-        if any("gear" in part.type.split("_") and part.id != gear.id for part in parts):
+        if any("gear" in part.type.split("_") and part.id not in own for part in parts):
             yield shaft, "the shaft carries another gear; shafts with two meshes are not modelled"
         bearings = bearings_of(stage, shaft)
         if len(bearings) != len(NAMES):
@@ -99,16 +101,14 @@ class _DriveTrain:
     def fill(self) -> bool:
         """Fill in all fields of the drive train, and return True. Return False if a shaft has no sections."""
         stage = self._stage
-        faces = [stage.face_interval(place) for place in (0, 1)]
-        start = max(face[0] for face in faces if face is not None)
-        stage.put("face_start_mm", start, stage.gears[0], "u_coordinate_on_shaft")
+        stage.put("face_start_mm", stage.face_start, stage.gears[0], "u_coordinate_on_shaft")
         speed = stage.flow.speed[stage.shafts[0].id]
         rotation = "counterclockwise" if speed > 0.0 else "clockwise"
         stage.put("operation.rotation", rotation, stage.shafts[0], "rotational_speed")
         self._directions()
         self._temperatures()
         for place in (0, 1):
-            if not self._shaft(place, start):
+            if not self._shaft(place):
                 return False
         for shaft in stage.shafts:
             for part in self._reading.model.related("side", "inner_part", shaft.id, "assembly"):
@@ -152,7 +152,7 @@ class _DriveTrain:
         x, y, z = (_dot(along, axes) for axes in zip(u, _cross(w, u), w, strict=True))
         return x, y, z
 
-    def _shaft(self, place: int, face_start: float) -> bool:
+    def _shaft(self, place: int) -> bool:
         stage, shaft, name = self._stage, self._stage.shafts[place], NAMES[place]
         sections = self._sections(shaft)
         if not sections:
@@ -161,7 +161,7 @@ class _DriveTrain:
         stage.put(f"{name}.start_mm", sections[0].begin, shaft)
         cylinders = [
             {"length_mm": end - begin, "outer_diameter_mm": outer, "inner_diameter_mm": inner}
-            for begin, end, outer, inner in self._under_teeth(place, sections, face_start)
+            for begin, end, outer, inner in self._under_teeth(place, sections)
         ]
         stage.put(f"{name}.sections", cylinders, shaft)
         placed = [(stage.position(bearing, shaft), bearing) for bearing in bearings_of(stage, shaft)]
@@ -218,18 +218,19 @@ class _DriveTrain:
                 joined.append(section._replace(begin=here))
         return joined
 
-    def _under_teeth(self, place: int, sections: list[ShaftSection], face_start: float) -> list[ShaftSection]:
+    def _under_teeth(self, place: int, sections: list[ShaftSection]) -> list[ShaftSection]:
         """Enlarge the sections under the teeth to the diameter that carries torsion, d - m h_fP*."""
-        gear, width = self._stage.involute(place), self._stage.fields.get(table.FACE_WIDTH.field)
-        if gear is None or width is None:
+        gear, faces = self._stage.involute(place), self._stage.faces()
+        if gear is None or not faces:
             return sections
         solid = gear.reference_diameter - gear.module * self._stage.fields[f"gears.{ROLES[place]}.dedendum"]
-        ends = (face_start, face_start + width)
         changed, cylinders = False, []
         for begin, end, outer, inner in sections:
-            cuts = sorted({begin, end, *(face_end for face_end in ends if begin < face_end < end)})
+            cuts = sorted({begin, end, *(edge for face in faces for edge in face if begin < edge < end)})
             for low, high in pairwise(cuts):
-                covered = low >= ends[0] - SHORTEST_SECTION and high <= ends[1] + SHORTEST_SECTION
+                covered = any(
+                    low >= start - SHORTEST_SECTION and high <= stop + SHORTEST_SECTION for start, stop in faces
+                )
                 grown = covered and outer < solid
                 changed |= grown
                 if high - low >= SHORTEST_SECTION:

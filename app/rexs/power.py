@@ -30,6 +30,17 @@ class Pair(NamedTuple):
     gears: tuple[Component, Component]
     shafts: tuple[Component, Component]
     teeth: tuple[int, int]
+    twin: "Pair | None" = None  # of double-helical gears, the stage of the other helix, with the same order of shafts
+
+    @property
+    def turned(self) -> "Pair":
+        """The stage with its two gears in the other order."""
+        return self._replace(gears=self.gears[::-1], shafts=self.shafts[::-1], teeth=self.teeth[::-1])
+
+    @property
+    def stages(self) -> tuple[Component, ...]:
+        """The stage, and that of the other helix."""
+        return (self.stage,) if self.twin is None else (self.stage, self.twin.stage)
 
 
 Mesh = Pair | SpeedLink
@@ -41,7 +52,8 @@ class PowerFlow:
 
     `reading` reads the part of the file that states the load: the model, or one of its load cases. `speed` maps each
     shaft to its speed [1/min]. `mesh_torque` maps each stage to the torques [N m] with which the mesh loads gear 1 and
-    gear 2. Speeds and torques are about the u axes of the shafts. `through` says through which stages of other kinds
+    gear 2; both stages of double-helical gears have the torques of both. Speeds and torques are about the u axes of the
+    shafts. `through` says through which stages of other kinds
     the load of a stage was followed. `hidden` has the stages whose load depends on a stage that is not modelled.
     """
 
@@ -127,7 +139,7 @@ class _TrainState:
             force = forces.get(pair.stage.id, nan)
             first, second = (pair.teeth[place] * force * reading.sense(pair.shafts[place]) for place in (0, 1))
             if isfinite(first) and isfinite(second):
-                flow.mesh_torque[pair.stage.id] = first, second
+                flow.mesh_torque |= {stage.id: (first, second) for stage in pair.stages}
             flow.through[pair.stage.id] = self._through[pair.stage.id].union(
                 *(self._through[group] for group in self._ends[pair.stage.id])
             )
@@ -233,7 +245,7 @@ class _TrainState:
     def _not_modelled(self, passing: list[SpeedLink], groups: Groups) -> set[int]:
         """Return the groups that take part in stages that are not modelled. The torques of such stages are unknown."""
         model = self._reading.model
-        followed = {pair.stage.id for pair in self._pairs} | {link.stage.id for link in passing}
+        followed = {stage.id for pair in self._pairs for stage in pair.stages} | {link.stage.id for link in passing}
         followed |= {part.id for link in passing for part in model.parts_of(link.stage.id)}
         others = [stage for type_, stages in model.by_type.items() if type_.endswith("_stage") for stage in stages
                   if stage.id not in followed]  # fmt: skip

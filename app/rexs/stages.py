@@ -79,7 +79,9 @@ class StageDraft(Draft):
 
     `pair` has the gears in the order of the file; `gears`, `shafts` and `teeth` begin with the pinion. `order` holds
     the positions of pinion and wheel in `pair`. `driver` is the position of the driving gear in `pair`, or None if the
-    driving gear is not known. The argument `place` of the methods is 0 for the pinion and 1 for the wheel.
+    driving gear is not known. `face_start` is the end of lowest Z of the common face [mm], or None if it is not known.
+    `second_helix` is the draft of the helix at the higher Z of double-helical gears. The argument `place` of the
+    methods is 0 for the pinion and 1 for the wheel.
     """
 
     def __init__(self, pair: Pair, flow: PowerFlow, pinion: int | None = None) -> None:
@@ -93,6 +95,9 @@ class StageDraft(Draft):
         self.stage = pair.stage
         turn = -1 if first else 1
         self.gears, self.shafts, self.teeth = pair.gears[::turn], pair.shafts[::turn], pair.teeth[::turn]
+        starts = [face[0] for place in (0, 1) if (face := self.face_interval(place)) is not None]
+        self.face_start = max(starts) if len(starts) == len(ROLES) else None
+        self.second_helix: StageDraft | None = None
 
     def fill(self) -> None:
         """Fill in all fields of the mesh except modifications and oil."""
@@ -192,6 +197,15 @@ class StageDraft(Draft):
         if width is None or middle is None:
             return None
         return middle - width / 2.0, middle + width / 2.0
+
+    def faces(self) -> list[tuple[float, float]]:
+        """Return both ends of the common face of each helix along Z [mm]; empty if they are not known."""
+        start, width = self.face_start, self.fields.get(table.FACE_WIDTH.field)
+        if start is None or width is None:
+            return []
+        gap = self.fields.get("gears.gap_width_mm")
+        starts = [start] if gap is None else [start, start + width + gap]
+        return [(each, each + width) for each in starts]
 
     def position(self, part: Component, shaft: Component) -> float | None:
         """Return the position of the middle of a part along the axis of the pinion's shaft [mm].

@@ -15,6 +15,7 @@ UNITS = (
     {"rad": 1.0, "deg": pi / 180.0, "°": pi / 180.0},
     {"1/min": REVOLUTION_PER_MINUTE, "1/s": 60.0 * REVOLUTION_PER_MINUTE, "rad/s": 1.0},
     {"Nm": 1.0, "kNm": 1e3, "Nmm": 1e-3},
+    {"N": 1.0, "kN": 1e3},
     {"W": 1.0, "kW": 1e3},
     {"C": 1.0, "°C": 1.0, "K": 1.0},
     {"mm^2/s": 1e-6, "m^2/s": 1.0},
@@ -160,6 +161,8 @@ MEAN_PEAK_TO_VALLEY = Row(
 RA_OF_RZ = 1.0 / 6.0  # Ra over Rz of a ground flank; ISO 6336-2 converts so
 POSITION = Row("position_mm", ("u_coordinate_on_shaft", "u_coordinate_on_shaft_inner_side"), "mm")
 WIDTH = Row("width_mm", ("face_width", "width"), "mm")
+AXIAL_FORCE = Row("load.axial_force_n", ("force_u_direction",), "N")
+HOLDS_ALONG_U, HOLDS_NOTHING = "axial_force_absorption", {"", "no_direction"}
 OIL_TEMPERATURE = Row(
     "temperatures.oil_c",
     (
@@ -328,7 +331,11 @@ IGNORED = (
     ("material", "", "of materials only elasticity, density and heat are used"),
     ("rack_shaped_tool", "", "of tools only addendum and tip radius are used"),
     ("lubricant", "", "of the oil only the kind and the values at 15, 40 and 100 °C are used"),
-    ("external_load", "", "of loads on shafts only the torque about the axis and its position are used"),
+    (
+        "external_load",
+        "",
+        "of loads on shafts only the torque about the axis is used, and the axial force on a floating shaft",
+    ),
     ("shaft_section", "", "sections are used only if a drive train is formed"),
     (
         "shaft|gear_casing|cylindrical_gear",

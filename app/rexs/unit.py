@@ -11,6 +11,7 @@ from pydantic import BaseModel
 
 from app.rexs import table
 from app.rexs.drive_train import add_drive_train, bearings_of
+from app.rexs.helices import helices_of, joined, with_twins
 from app.rexs.lubrication import Lubrication
 from app.rexs.model import Component, RexsUnit
 from app.rexs.modifications import Modifications, modifications_of
@@ -44,6 +45,7 @@ def gear_unit(model: RexsUnit) -> dict[str, Any]:
         message = f"the unit has more than {MOST_STAGES} stages; only the first stages are read"
         reading.find("too_many_stages", None, None, message)
         del all_pairs[MOST_STAGES:]
+    all_pairs = with_twins(reading, all_pairs)
     cases = model.load_cases[: min(MOST_CASES, MOST_DRAFTS // max(len(all_pairs), 1))]
     if len(cases) < len(model.load_cases):
         reading.find("too_many_cases", None, None, f"only the first {len(cases)} load cases are read")
@@ -107,11 +109,12 @@ def _stage(pair: Pair, base: PowerFlow, flows: list[PowerFlow]) -> tuple[dict[st
     cases = _cases(stage, pair, flows, is_train=is_train)
     askable = 0 < len(cases) <= MOST_SPECTRUM_CASES
     row = {
-        "id": pair.stage.id,
-        "name": pair.stage.name,
+        "id": stage.stage.id,
+        "name": ", ".join(dict.fromkeys(helix.stage.name for helix in helices_of(stage))),
+        "helices": [helix.stage.id for helix in helices_of(stage)] if pair.twin else None,
         "pinion": stage.gears[0].id,
         "wheel": stage.gears[1].id,
-        "driver": None if stage.driver is None else pair.gears[stage.driver].id,
+        "driver": None if stage.driver is None else stage.pair.gears[stage.driver].id,
         "hand": stage.fields.get("gears.hand"),
         "requests": requests,
         "cases": [case.of_scuffing for case in cases],
@@ -127,20 +130,22 @@ def _draft_of(pair: Pair, flow: PowerFlow, pinion: int | None = None) -> StageDr
     stage.fill()
     Lubrication(stage).fill()
     Modifications(stage).fill()
-    return stage
+    return stage if pair.twin is None else joined(stage, _draft_of(pair.twin, flow, stage.order[0]))
 
 
 def _described_by(stage: StageDraft) -> Iterator[Component]:
     """Yield the components that describe a stage."""
     model = stage.reading.model
-    yield stage.stage
+    helices = helices_of(stage)
+    yield from (helix.stage for helix in helices)
     for place, shaft in enumerate(stage.shafts):
-        yield stage.gears[place]
-        yield from stage.gear_data(place)
-        for flank in stage.flanks(place).values():
-            yield flank
-            yield from modifications_of(stage.reading, flank)
-        yield from filter(None, (stage.tool(place), stage.material(place)))
+        for helix in helices:
+            yield helix.gears[place]
+            yield from helix.gear_data(place)
+            for flank in helix.flanks(place).values():
+                yield flank
+                yield from modifications_of(helix.reading, flank)
+            yield from filter(None, (helix.tool(place), helix.material(place)))
         yield shaft
         yield from (part for part in model.parts_of(shaft.id) if part.type in table.ON_SHAFTS)
         yield from bearings_of(stage, shaft)

@@ -131,7 +131,8 @@ def tree(model: type[Documented]) -> Branch:
 
     If several leaves are declared with the same title, each of these leaves gets the title of a section as a
     supplement. This is the innermost section whose title distinguishes the leaf from the other leaves. Where no section
-    does for several leaves, these get the titles of all sections around them; a single such leaf keeps its title.
+    does for several leaves, these get the titles of all sections that tell some of them apart; a single such leaf keeps
+    its title.
     """
     places = [*walk(model)]
     namesakes: dict[str, dict[str, list[str]]] = defaultdict(dict)
@@ -146,10 +147,21 @@ def tree(model: type[Documented]) -> Branch:
             for path, sections in around.items()
         }
         untold = [path for path, section in telling.items() if section is None]
+        distinct = _distinct(list(around.values()))
         for path, section in telling.items():
-            supplements = [section] if section else around[path] if len(untold) > 1 else []
+            several = [name for name in around[path] if name in distinct]
+            supplements = [section] if section else several if len(untold) > 1 else []
             titles[path] = ", ".join([title, *supplements]) if len(around) > 1 else title
     return Branch("", "", "", model, _nested(places, titles))
+
+
+def _distinct(places: list[list[str]]) -> set[str]:
+    """Return the sections that tell places apart: none around all places, and one of those always found together."""
+    found: dict[frozenset[int], str] = {}
+    for sections in places:
+        for name in sections:
+            found.setdefault(frozenset(at for at, others in enumerate(places) if name in others), name)
+    return {name for around, name in found.items() if len(around) < len(places)}
 
 
 @cache
@@ -208,10 +220,14 @@ def headlines(response: type[Documented]) -> tuple[Leaf, ...]:
     """Return the headline numbers of an answer, the most important first.
 
     If the class of the answer extends the class of another answer, only headline numbers in the added fields are
-    returned.
+    returned. Numbers of the items of a list are not headlines.
     """
     added = response.__annotations__
-    own = [leaf for leaf in leaves(response) if leaf.view.headline and leaf.path.split(".")[0] in added]
+    own = [
+        leaf
+        for leaf in leaves(response)
+        if leaf.view.headline and (parts := leaf.path.split("."))[0] in added and ITEM not in parts
+    ]
     return tuple(sorted(own, key=lambda leaf: leaf.view.headline or 0))
 
 

@@ -28,7 +28,8 @@ def scalar_at(model: type[Documented], path: str, place: str, unknown: str) -> L
         leaf = replace(listed, dimensions=0, nullable=False)
     if leaf is None:
         paths = [other.path for other in leaves(model)]
-        if any(name.startswith(f"{path}.") for name in paths):
+        section = ".".join(ITEM if part.isdecimal() else part for part in path.split("."))
+        if any(name.startswith(f"{section}.") for name in paths):
             raise Unprocessable(
                 "not_scalar",
                 f"{path} is a section and not a single value; name one of the fields in the section",

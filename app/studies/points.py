@@ -14,7 +14,7 @@ from app.calculations import BY_PATH, Calculation
 from app.errors import PROBLEMS, InvalidBody, Unprocessable, faults_of
 from app.evaluate import evaluate, refuse_endless
 from app.models.card import Pump
-from app.schema.fields import Leaf, headlines, value_at
+from app.schema.fields import ITEM, Leaf, headlines, value_at
 from app.schema.model import Request
 from app.schema.reading import validated
 from app.studies.fields import clear_excluded, scalar_at, set_value
@@ -138,7 +138,9 @@ def check_distinct(paths: Sequence[str], place: str, *, numbered: bool = False) 
 
 def needs_film(endpoint: str, output: str) -> bool:
     """Return True if an output needs the thermal film. The film takes more time than all other parts of the answer."""
-    return "thermal_ehl" in output or output.removeprefix(COLD) in (BY_PATH[endpoint].words.of_the_film or ())
+    of_the_film = BY_PATH[endpoint].words.of_the_film or ()
+    wanted = ".".join(ITEM if part.isdecimal() else part for part in output.removeprefix(COLD).split("."))
+    return "thermal_ehl" in output or wanted in of_the_film
 
 
 def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[str]) -> dict[str, Any]:

@@ -112,7 +112,7 @@ def decisive(faces: list[LoadedFace]) -> int:
 def axial_balance(
     inputs: DriveTrainInputs, prepared: Prepared, equilibrium: Equilibrium, couplings: tuple[CouplingResult, ...]
 ) -> AxialBalance | None:
-    """Return the axial balance of the floating shaft and its bounds; None for a single helix (Eq. D17, D18)."""
+    """Return the axial balance of the floating shaft and its bounds; None for a single helix (Eq. D20, D22)."""
     system = prepared.unit
     split = system.split
     if split is None:

@@ -382,23 +382,23 @@ class HelixResult:
 
     hand: Literal["right", "left"] = quantity("hand of the helix", text="of the pinion")
     start: float = quantity("start of the helix", "z_F", unit="mm", text="its end of lowest Z")
-    share: float = quantity("share of the load", "F_i/F", text="of the helix", equation="D17")
+    share: float = quantity("share of the load", "F_i/F", text="of the helix", equation="D20")
     axial_force: float = quantity(
-        "axial force of the helix", "F_a", unit="n", text="on the pinion, towards +Z", equation="D17"
+        "axial force of the helix", "F_a", unit="n", text="on the pinion, towards +Z", equation="D20"
     )
     pinion_flank: float | None = quantity(
         "flank temperature of the helix on the pinion",
         "θ_F1",
         unit="c",
         text="as if the other helix carried the same; null without a heat balance",
-        equation="D20",
+        equation="D24",
     )
     wheel_flank: float | None = quantity(
         "flank temperature of the helix on the wheel",
         "θ_F2",
         unit="c",
         text="as if the other helix carried the same; null without a heat balance",
-        equation="D20",
+        equation="D24",
     )
     misalignment: Misalignment = quantity("misalignment", text="gap over the face, by causes")
     load: FaceLoad = quantity("load", text="how the face carries")
@@ -418,7 +418,7 @@ class HelixResult:
 _Number = float  # the class below has a field of the name `float`
 
 
-@record(kw_only=True, equation="D17")
+@record(kw_only=True, equation="D20")
 class AxialBalance:
     """The axial balance of the shaft that floats, which splits the load over two helices."""
 
@@ -447,7 +447,7 @@ class AxialBalance:
         equation="D21",
     )
     float: _Number | None = quantity(
-        "axial float", "a", unit="um", text="of the pinion against the wheel, towards +Z", equation="D18"
+        "axial float", "a", unit="um", text="of the pinion against the wheel, towards +Z", equation="D22"
     )
 
 

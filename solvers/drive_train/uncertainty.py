@@ -12,6 +12,7 @@ from solvers.notices import Notice
 MOST_CORNERS = 256  # number of combinations of eight uncertain inputs with two values per input
 FRICTION = (0.05, 0.25)  # coefficients of friction: best mixed lubrication; the value that gives the thrust 0.25 T/D
 THRUST = (0.0, 1.0)  # thrust as a share of the friction limit of the coupling
+EITHER_THRUST = (-1.0, *THRUST)  # of double-helical gears: each sense loads another helix
 RESPONSE = (0.3, 1.0)  # wall responses: 0.3, chosen, if oil cools the wall; 1.0 if the wall is as warm as the gas
 CLEARANCE = 0.1  # relative change of the clearance, up and down
 QUARTERS: tuple[Callable[[float, float], tuple[float, float]], ...] = (
@@ -43,6 +44,7 @@ def uncertain_inputs(inputs: DriveTrainInputs) -> tuple[Range, ...]:
     in opposite senses, because the same change in both bearings would not tilt the shaft. All couplings change
     together, because a unit with two independent couplings would need 2,048 runs.
     """
+    helices = inputs.mesh.distribution.gears.helices
     ranges = (
         [Range("wall response", ("heat.wall_response",), tuple((value,) for value in RESPONSE))]
         if inputs.effects.thermal
@@ -54,7 +56,7 @@ def uncertain_inputs(inputs: DriveTrainInputs) -> tuple[Range, ...]:
         ranges += [
             _together(inputs, "friction", "friction.coefficient", FRICTION),
             _offsets(inputs),
-            _together(inputs, "thrust fraction", "thrust_fraction", THRUST),
+            _together(inputs, "thrust fraction", "thrust_fraction", THRUST if helices == 1 else EITHER_THRUST),
         ]
     return tuple(uncertain for uncertain in ranges if uncertain.names)
 

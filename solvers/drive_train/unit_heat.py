@@ -48,7 +48,7 @@ class WarmUnit:
     """A unit at the temperatures of its heat balance.
 
     `heat` is the result of the heat balance, and `balance` holds the inputs of the heat balance. Of a double-helical
-    unit `helices` are the balances in which both helices carry the load of one (Eq. D20); else empty.
+    unit `helices` are the balances in which both helices carry the load of one (Eq. D24); else empty.
     """
 
     inputs: DriveTrainInputs

@@ -16,7 +16,7 @@ UNEQUAL = 1.1  # chosen: larger share over half the load above which unequal hel
 
 
 def helix_share(inputs: LoadDistributionInputs) -> HelixShare | None:
-    """Return the share of the more loaded helix, (1 + |F_ext|/(F_bt tan beta_b))/2 (Eq. D17); None for one helix.
+    """Return the share of the more loaded helix, (1 + |F_ext|/(F_bt tan beta_b))/2 (Eq. D20); None for one helix.
 
     Raises NoSolution `helix_unloaded` if the axial force lifts the other helix off.
     """

@@ -252,7 +252,7 @@ class FrictionLoss:
     efficiency: float | None = quantity("mesh efficiency", "η_z", text="1 − μ_m H_V; null without load")
 
 
-@record(equation="D17")
+@record(equation="D20")
 class HelixShare:
     """Share of the load that the more loaded helix of a double-helical pair carries."""
 

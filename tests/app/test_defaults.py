@@ -15,6 +15,7 @@ from app.models.scuffing.figures import contact_temperature, friction
 from app.models.scuffing.request import ScuffingRequest
 from app.pages.results import cards
 from app.schema.fields import leaves
+from solvers.errors import InvalidInput
 from tests.support.requests import CONTACT, COUPLING, GONE, changed, refused, solved
 
 COUPLED, SCUFFING, TRAIN = "/v1/coupling", "/v1/scuffing", "/v1/drive-train"
@@ -359,6 +360,20 @@ def test_a_section_under_the_teeth_takes_the_diameter_that_carries_torsion() -> 
         "section_diameter",
         "pinion_shaft.sections.1.outer_diameter_mm",
     )
+
+
+def test_a_section_under_one_helix_may_stick_out() -> None:
+    """A section without a diameter may be longer than the teeth above it, but not reach from helix to helix."""
+    shaft = "pinion_shaft.sections"
+    longer = {f"{shaft}.{place}.length_mm": length for place, length in ((2, 20), (3, 220), (4, 20))}
+    solved_inputs = BY_PATH[TRAIN].request.model_validate(changed(TURBO, longer)).inputs()
+    assert solved_inputs.pinion_shaft.sections[3].length == pytest.approx(0.22)
+    double = examples()["starter-turbo-double-helical"].request
+    into_the_gap = {f"{shaft}.3.length_mm": 115, f"{shaft}.4.length_mm": 55}
+    BY_PATH[TRAIN].request.model_validate(changed(double, into_the_gap)).inputs()
+    for wrong in ({f"{shaft}.4.outer_diameter_mm": GONE}, {f"{shaft}.3.length_mm": 172, f"{shaft}.4.length_mm": 1}):
+        with pytest.raises(InvalidInput, match="not in the gap between the helices"):
+            BY_PATH[TRAIN].request.model_validate(changed(double, wrong)).inputs()
 
 
 @pytest.mark.parametrize("name", [name for name in examples() if name.startswith("xue-")])

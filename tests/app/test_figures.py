@@ -51,13 +51,14 @@ FIGURES = {
     ),
     "/v1/scuffing/line-contact": "contact film-temperature heat",
     "/v1/drive-train": (
-        "shafts section shaft-lines gap slope-parts face-load flank-load contact-temperature micropitting wear "
-        "journals thrust losses heat-flows node-temperatures oil-flow"
+        "shafts section helices thrust-shares shaft-lines gap slope-parts face-load flank-load contact-temperature "
+        "micropitting wear journals thrust losses heat-flows node-temperatures oil-flow"
     ),
     "/v1/drive-train/warm-up": "warm-up alignment",
 }
 BALANCE = {"safety-band", "heat-flows", "node-temperatures", "oil-flow"}
 MICROPITTING = {"micropitting", "micropitting-film", "wear"}
+TWO_HELICES = {"helices", "thrust-shares"}
 # One ordinary case of each endpoint, drawn in the default run.
 CASES = {
     "/v1/coupling": CROWNED,
@@ -105,6 +106,8 @@ def reason_to_leave_out(name: str, which: str) -> str | None:
     """Return the code of the reason why an example lacks a figure, or None if the example has the figure."""
     request, _ = solved(name)
     if which in MICROPITTING and request.micropitting is None:
+        return "not_asked"
+    if which in TWO_HELICES and request.gears.gap_width_mm is None:
         return "not_asked"
     if which in BALANCE and not request.asks_for_balance:
         return "not_asked"

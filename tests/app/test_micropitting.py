@@ -224,7 +224,7 @@ def test_safety_and_ratio_are_outputs_of_studies() -> None:
 def test_results_are_written_into_the_file_of_a_unit() -> None:
     document = read(three_stages().xml(), 10**7)
     stage = next(each["id"] for each in three_stages().components if each["type"] == "cylindrical_stage")
-    written = with_answer(document, stage, SCUFFING, asked(STARTER, {}))
+    written = with_answer(document, [stage], SCUFFING, asked(STARTER, {}))
     text = written.content.decode()
     assert "custom_tribodrive_micropitting_safety" in text
     assert "custom_tribodrive_minimum_specific_film_thickness_micropitting" in text

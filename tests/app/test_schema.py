@@ -1,5 +1,6 @@
 """The declaration of every field of a request or an answer contains all that the pages and the JSON schema need."""
 
+import pickle
 from collections import Counter
 from functools import cache
 from itertools import pairwise
@@ -8,7 +9,7 @@ from typing import Any
 import pytest
 
 from app.calculations import BY_PATH, CALCULATIONS
-from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves
+from app.schema.fields import ITEM, Leaf, branches, headlines, leaf_at, leaves
 from app.schema.model import Documented
 from app.schema.quantities import split_unit
 
@@ -43,6 +44,13 @@ def definition(document: dict[str, Any], field: dict[str, Any]) -> dict[str, Any
     kinds += [kind["items"] for kind in kinds if "items" in kind]
     reference = next((kind["$ref"] for kind in kinds if "$ref" in kind), None)
     return document["$defs"][reference.rpartition("/")[2]] if reference else field
+
+
+@pytest.mark.parametrize("model", REQUESTS, ids=REQUEST_IDS)
+def test_sections_of_a_request_can_be_kept(model: type[Documented]) -> None:
+    """Workers hand requests over and keep them pickled, which needs the class of every section in its module."""
+    for branch in branches(model).values():
+        assert pickle.dumps(branch.model)
 
 
 @pytest.mark.parametrize("model", MODELS, ids=IDS)

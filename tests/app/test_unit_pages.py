@@ -14,14 +14,14 @@ from app.figures.data import Hue
 from app.pages.cases import Asked, solved
 from app.pages.studies import page as pages
 from app.pages.studies.corners import CornersPage
-from app.pages.studies.design import DesignPage
+from app.pages.studies.design import HELICES, DesignPage
 from app.pages.studies.page import StudyPage
 from app.pages.studies.sensitivity import SensitivityPage
 from app.pages.study_links import study_links
 from app.pages.typesetting import shown
 from tests.support.pages import asked, asked_by, checked, lines_of, opened, whole
 
-UNIT = "starter-generator-gear-drive-train"
+UNIT, DOUBLE = "starter-generator-gear-drive-train", "starter-turbo-double-helical"
 SAFETY, SLOPE = "safety.blok_flank", "modifications.helix_slope_um"
 
 
@@ -139,6 +139,44 @@ def test_the_sheet_names_the_end_where_material_is_removed() -> None:
         assert amount == "30"
         assert trace.x[trace.y.argmin()] == low
         assert trace.y[trace.x == low] - trace.y[trace.x == high] == pytest.approx(-30.0)
+
+
+def test_two_helices_have_a_correction_each_and_the_thrust_counts() -> None:
+    body = checked(DesignPage, asked(DOUBLE)).body()
+    paths = [path for each in body["variables"] for path in each["path"]]
+    assert [path for path in paths if "second_helix" in path] == list(HELICES[1])
+    assert len(set(paths)) == 6
+    offset, thrust = body["corners"]
+    assert (thrust["path"], thrust["values"]) == ("couplings.0.thrust_fraction", [-1.0, 0.0, 1.0])
+    assert len(offset["values"]) == 4
+
+
+@pytest.mark.ci
+def test_the_sheet_has_both_helices() -> None:
+    """Each lead chart is lowest at the end that the sheet names for its helix."""
+    said = {"trials": "1", "corner.thrust_fraction": "1", "corner.offset": "0 400"}
+    start = asked(DOUBLE, **said)
+    given = {"temperatures.bulk_c": "95", "effects.thermal": "false", HELICES[1][0]: "-6"}
+    pairs = [pair for pair in start.pairs if not pair[0].startswith("cooling") and pair[0] not in given]
+    study = checked(DesignPage, Asked(start.path, [*pairs, *given.items()], said))
+    lines = lines_of(study)
+    result = study.result(lines)
+    sheet, _ = result.first
+    assert [str(row[0]) for row in sheet.rows] == [
+        *["pinion, helix 1"] * 2,
+        *["pinion, helix 2"] * 2,
+        "pinion, both helices",
+        "wheel, both helices",
+    ]
+    assert [str(sheet.rows[place][4]) for place in (0, 2)] == ["13", "6"]
+    panels = result.figures["lead"].panels
+    assert [panel.title for panel in panels] == ["helix 1", "helix 2"]
+    for place, panel in enumerate(panels):
+        deep, high = (float(text) for text in re.findall(r"Z = (\d+) mm", str(sheet.rows[2 * place][2])))
+        trace = panel.lines[0]
+        assert trace.y[trace.x == deep] < trace.y[trace.x == high]
+    assert "outer end (Z = 320 mm) deeper" in str(sheet.rows[0][2])
+    assert "end at the gap (Z = 490 mm) deeper" in str(sheet.rows[2][2]), "a slope of the other sign"
 
 
 @pytest.mark.ci

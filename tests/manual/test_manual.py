@@ -93,7 +93,15 @@ def test_figures_are_there(name: str) -> None:
 def test_every_model_shows_where_it_fails() -> None:
     """The section "Limits of validity" of every model with its own endpoint shows the picture of a study."""
     # The pictures in the chapters, the picture files and the studies that the service shows have the same names.
-    for name in set(NAMES) - {"first-pair", "heat-balance", "spectrum", "service", "fields"}:  # no endpoint of its own
+    without = {
+        "first-pair",
+        "double-helical",
+        "heat-balance",
+        "spectrum",
+        "service",
+        "fields",
+    }  # no endpoint of its own
+    for name in set(NAMES) - without:
         assert f"studies/{name}.png)" in chapters()[name].section("Limits of validity")
     names = sorted(name for each in chapters().values() for name in studies_of(each))
     assert names == sorted(shown_studies()) == sorted(path.stem for path in (FOLDER / "studies").iterdir())

@@ -16,7 +16,7 @@ from app.rexs.unit import gear_unit
 from app.schema.fields import leaves, value_at
 from solvers.gears.gear import involute
 from solvers.gears.pair import inverse_involute
-from tests.rexs.units import Unit, Value, three_stages, turbo_unit
+from tests.rexs.units import UPPER, Unit, Value, double_helical, held, modified, three_stages, turbo_unit
 
 MOST_BYTES = 20_000_000
 LOAD, SCUFFING, PUMPING, TRAIN = "/v1/scuffing/load-distribution", "/v1/scuffing", "/v1/pumping", "/v1/drive-train"
@@ -558,7 +558,8 @@ NOT_IN_FILES = {
     "grooves.*": "unknown to the standard",
     "thrust_collar.*": "unknown to the standard",
     "ambient.*": "the air in the casing is unknown to the standard",
-    "modifications.lead_curve.*": "topographies are not mapped",
+    "modifications.*lead_curve.*": "topographies are not mapped",
+    "gears.apex_runout_um": "runout of the apex is unknown to the standard",
     "gears.module_plane": "modules of the request are normal ones",
     "gears.*.tip_diameter_mm": "tip diameters of files become addendum coefficients, as their limits do",
     "*.power_kw": "the torque is given",
@@ -626,7 +627,12 @@ def paths_of(request: Any, path: str = "") -> set[str]:
 
 @pytest.mark.parametrize("endpoint", [LOAD, SCUFFING, PUMPING, TRAIN])
 def test_every_field_of_a_request_is_reached_or_listed_with_its_reason(endpoint: str) -> None:
-    reached = paths_of(stage_of(full_unit())["requests"][endpoint])
+    helices = double_helical()
+    held(helices, 1)
+    helices.of(first(helices, "external_load"))["force_u_direction"] = (5.0, "kN")
+    modified(helices, UPPER, "helix_slope", helix_slope=(20.0, "mum"))
+    modified(helices, UPPER, "helix_crowning", helix_crowning_amount_datum_face=(4.0, "mum"))
+    reached = {path for unit in (full_unit(), helices) for path in paths_of(stage_of(unit)["requests"][endpoint])}
     known = {leaf.path for leaf in leaves(BY_PATH[endpoint].request)}
     assert reached <= known
     listed = {path for path in known if any(fnmatch(path, pattern) for pattern in NOT_IN_FILES)}

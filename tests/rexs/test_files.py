@@ -140,7 +140,7 @@ def test_components_inside_an_element_of_their_own_take_results() -> None:
     )
     document = read(content, MOST_BYTES)
     stage = document.model.by_type["cylindrical_stage"][0].id
-    written = read(with_answer(document, stage, "/v1/scuffing", ANSWER).content, MOST_BYTES).model
+    written = read(with_answer(document, [stage], "/v1/scuffing", ANSWER).content, MOST_BYTES).model
     assert "custom_tribodrive_status" in written.components[stage].attributes
 
 
@@ -174,7 +174,7 @@ def test_results_are_written_and_nothing_is_lost() -> None:
     document = read(unit.xml(), MOST_BYTES)
     before = document.model
     stage = next(each.id for each in before.components.values() if each.type == "cylindrical_stage")
-    content = with_answer(document, stage, "/v1/scuffing", ANSWER).content
+    content = with_answer(document, [stage], "/v1/scuffing", ANSWER).content
     after = read(content, MOST_BYTES).model
     added = {
         "face_load_factor_contact_stress": ("none", "1.25"),
@@ -196,7 +196,7 @@ def test_results_are_written_and_nothing_is_lost() -> None:
 def test_before_version_2_a_standard_name_is_custom() -> None:
     document = read(turbo_unit("1.7").json(), MOST_BYTES)
     stage = next(each.id for each in document.model.components.values() if each.type == "cylindrical_stage")
-    content = with_answer(document, stage, "/v1/scuffing", ANSWER).content
+    content = with_answer(document, [stage], "/v1/scuffing", ANSWER).content
     attributes = read(content, MOST_BYTES).model.components[stage].attributes
     assert attributes["custom_tribodrive_face_load_factor_contact_stress"].value == 1.25
     assert "face_load_factor_contact_stress" not in attributes
@@ -348,7 +348,7 @@ def test_a_damaged_file_is_read_or_refused_wherever_one_is_taken(data: st.DataOb
         return
     assert unit_html(content, "", MOST_BYTES)
     for stage in found["stages"]:
-        assert read(with_answer(document, stage["id"], "/v1/scuffing", ANSWER).content, MOST_BYTES)
+        assert read(with_answer(document, [stage["id"]], "/v1/scuffing", ANSWER).content, MOST_BYTES)
 
 
 def test_links_of_a_unit_carry_the_name_of_the_file_to_every_report() -> None:

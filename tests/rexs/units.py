@@ -8,6 +8,7 @@ from typing import Any
 from xml.sax.saxutils import escape, quoteattr
 
 Value = float | int | str | bool | list[Any]
+LOWER, UPPER = 3, 26  # the stages of `double_helical`, in the order of Z
 
 
 @dataclass
@@ -250,3 +251,74 @@ def turbo_unit(version: str = "2.0") -> Unit:
     unit.relate("stage", stage=stage, gear_1=gears[0], gear_2=gears[1])
     unit.relate("assembly", assembly=gear_unit, part=stage)
     return unit
+
+
+def double_helical(version: str = "2.0") -> Unit:
+    """Return the turbo unit with double-helical gears: two stages of 28 degrees, 2 x 110 mm wide, 60 mm apart.
+
+    The first stage is that at the lower Z, with a right-hand pinion. Its tip relief is that of both helices; each helix
+    has a helix slope of its own.
+    """
+    unit = turbo_unit(version)
+    stages = [next(each["id"] for each in unit.components if each["type"] == "cylindrical_stage")]
+    gears = [each["id"] for each in unit.components if each["type"] == "cylindrical_gear"]
+    shafts = [each["id"] for each in unit.components if each["type"] == "shaft"]
+    stages.append(unit.add("cylindrical_stage", "stage 2", **unit.of(stages[0])))
+    far = [unit.add("cylindrical_gear", **unit.of(gear)) for gear in gears]
+    for helix, (pair, middle) in enumerate(((gears, 375.0), (far, 545.0))):
+        for place, gear in enumerate(pair):
+            unit.of(gear).update(
+                normal_module=(5.5, "mm"),
+                face_width=(110.0, "mm"),
+                u_coordinate_on_shaft=(middle, "mm"),
+                helix_angle_reference_diameter=(28.0 if helix == place else -28.0, "deg"),
+            )
+            if helix:
+                unit.relate("assembly", assembly=shafts[place], part=gear)
+                flanks = [unit.add("cylindrical_gear_flank", normal_pressure_angle=(20.0, "deg")) for _ in range(2)]
+                unit.relate("flank", gear=gear, left=flanks[0], right=flanks[1])
+    unit.relate("stage", stage=stages[1], gear_1=far[0], gear_2=far[1])
+    for stage in stages:
+        unit.of(stage)["center_distance"] = (526.362, "mm")
+    for each in unit.components:
+        own = each["attributes"]
+        if each["type"] == "shaft" and own["support_vector"][0][1]:
+            own["support_vector"] = ([0.0, 526.362, 0.0], "mm")
+        if each["type"] == "hydrodynamic_radial_plain_bearing" and own["u_coordinate_on_shaft_inner_side"][0] > 600.0:
+            own["u_coordinate_on_shaft_inner_side"] = (700.0, "mm")
+        if each["type"] == "shaft_section" and own["u_coordinate_on_shaft"][0] > 300.0:
+            begin = own["u_coordinate_on_shaft"][0]
+            own["length"] = (280.0 if begin < 400.0 else 240.0, "mm")
+            own["u_coordinate_on_shaft"] = (320.0 if begin < 400.0 else 600.0, "mm")
+    return unit
+
+
+def gears(unit: Unit, stage: int) -> tuple[int, int]:
+    """Return the gears of a stage in the order of its relation."""
+    roles = next(each["roles"] for each in unit.relations if each["roles"].get("stage") == stage)
+    return roles["gear_1"], roles["gear_2"]
+
+
+def modified(unit: Unit, stage: int, kind: str, **attributes: tuple[Value, str]) -> None:
+    """Add a modification to both flanks of the pinion of a stage."""
+    (flanks,) = [
+        (each["roles"]["left"], each["roles"]["right"])
+        for each in unit.relations
+        if each["type"] == "flank" and each["roles"]["gear"] == gears(unit, stage)[0]
+    ]
+    for flank in flanks:
+        unit.relate("reference", origin=flank, referenced=unit.add(kind, **attributes))
+
+
+def held(unit: Unit, place: int) -> int:
+    """Add a bearing that holds the pinion's (0) or the wheel's shaft (1) along its axis, and return its id."""
+    shafts, casing = (
+        [each["id"] for each in unit.components if each["type"] == name] for name in ("shaft", "gear_casing")
+    )
+    bearing = unit.add(
+        "concept_bearing",
+        radial_force_absorption=(False, "none"),
+        axial_force_absorption=("both_directions", "none"),
+    )
+    unit.relate("side", assembly=bearing, inner_part=shafts[place], outer_part=casing[0])
+    return bearing

@@ -9,9 +9,11 @@ import numpy as np
 from app.figures import parts
 from app.figures.data import Axis, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Role, Row, Span, Values, values
 from app.figures.declaration import Declaration
-from app.figures.sketches import shafts
+from app.figures.sketches import faces_of, shafts
 from app.figures.units import MM, axis
 from app.figures.wording import number, percent, without_rounding
+from app.models.drive_train import helix_figures
+from app.models.drive_train.helix_figures import decisive
 from app.models.load_distribution.figures import face, over_flank, section
 from app.models.scuffing import heat_balance_figures as heat_balance
 from app.models.scuffing import micropitting_figures as micropitting
@@ -57,7 +59,7 @@ def flank_load(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     if load.face_load_factor is None:
         return Figure("no load", [panel])
     pattern = f"contact pattern {percent(load.contact_fraction)}, K_Hβ = {number(load.face_load_factor)}"
-    return Figure(f"highest {number(load.max_line_load, 'N/mm')}; {pattern}", [panel])
+    return Figure(f"{decisive(result)}highest {number(load.max_line_load, 'N/mm')}; {pattern}", [panel])
 
 
 def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
@@ -73,7 +75,7 @@ def contact_temperature(inputs: DriveTrainInputs, result: DriveTrainResult) -> F
     high = float(grid.max())
     safety = result.safety.blok_flank if result.safety is not None else None
     finding = "" if safety is None else f", safety factor S_B = {number(safety)}"
-    return Figure(f"up to {number(high, '°C', digits=4)}{finding}", [panel])
+    return Figure(f"{decisive(result)}up to {number(high, '°C', digits=4)}{finding}", [panel])
 
 
 def shaft_lines(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
@@ -106,7 +108,7 @@ def _shaft(inputs: DriveTrainInputs, name: str, given: Shaft, state: ShaftResult
         lines=lines,
         marks=marks,
         levels=[Level(hub.position / MM, "hub", vertical=True) for hub in inputs.couplings if hub.shaft == name],
-        spans=[Span(inputs.face_start / MM, (inputs.face_start + face_width(inputs)) / MM, "face")],
+        spans=[Span(start / MM, end / MM, "face") for start, end in faces_of(inputs)],
     )
 
 
@@ -124,7 +126,7 @@ def gap(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     heat = number(without_rounding(slopes.thermal_slope, slopes.thermal_range), "µm")
     wanted = f"first estimate of the helix slope to grind {number(slopes.recommended_helix_slope, 'µm')}"
     panel = Panel(x=face(face_width(inputs)), y=opened, lines=parts.lines(curves.position, gaps))
-    return Figure(f"shafts {tilt}, heat {heat} over the face; {wanted}", [panel])
+    return Figure(f"{decisive(result)}shafts {tilt}, heat {heat} over the face; {wanted}", [panel])
 
 
 def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
@@ -146,7 +148,7 @@ def slope_parts(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     slope = axis(slopes, "total_slope", "slope of the gap over the face", magnitude=False)
     largest = max(causes, key=lambda row: abs(row.value))
     finding = f"most by the {largest.name}: {number(largest.value, 'µm')}" if largest.value else "heat alone"
-    return Figure(finding, [Panel(x=slope, y=Axis("cause"), rows=rows)])
+    return Figure(f"{decisive(result)}{finding}", [Panel(x=slope, y=Axis("cause"), rows=rows)])
 
 
 def effects_apart(inputs: DriveTrainInputs, result: DriveTrainResult) -> dict[str, Values]:
@@ -169,7 +171,13 @@ def effects_apart(inputs: DriveTrainInputs, result: DriveTrainResult) -> dict[st
         warm, mesh=replace(warm.mesh, lubrication="closed_form"), states=("hot",)
     )  # the figure needs no film
     results = {name: solve(replace(plain, effects=effects)) for name, effects in variants.items()}
-    return {name: values(variant.misalignment.curves.line_force / 1e3) for name, variant in results.items()}
+    return {name: values(_same_face(result, variant) / 1e3) for name, variant in results.items()}
+
+
+def _same_face(result: DriveTrainResult, variant: DriveTrainResult) -> Values:
+    """Return the transverse force per face width [N/m] of a variant, of two helices on the one that decides."""
+    own = variant if variant.helices is None else variant.helices[(result.decisive_helix or 1) - 1]
+    return own.misalignment.curves.line_force
 
 
 def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[str, Values]) -> Figure:
@@ -184,7 +192,7 @@ def face_load(inputs: DriveTrainInputs, result: DriveTrainResult, others: dict[s
     lines += [Line(name, curves.position, force, HUES[name], Role.REFERENCE) for name, force in others.items()]
     y = axis(curves, "line_force", "transverse force per face, mean over the roll")
     finding = f"K_Hβ = {number(load.face_load_factor)} at {percent(load.face_load_at)} of the face"
-    return Figure(finding, [Panel(x=face(face_width(inputs)), y=y, lines=lines)])
+    return Figure(f"{decisive(result)}{finding}", [Panel(x=face(face_width(inputs)), y=y, lines=lines)])
 
 
 def journals(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
@@ -247,6 +255,10 @@ def thrust(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     title = "axial load towards +Z: of the mesh, and its bounds with the couplings"
     x = Axis(title, "N", magnitude=False, symbol="F_a")
     finding = f"friction can reverse the load of the {reversing[0]}" if reversing else "no load reverses"
+    if result.axial is not None:
+        carried = [(row.name, row.bounds) for row in rows if row.bounds is not None]
+        texts = [f"{name} carries {' to '.join(number(end / NEWTONS) for end in ends)} kN" for name, ends in carried]
+        finding = "; ".join([f"{result.axial.floating_shaft} floats", *texts])
     return Figure(finding, [Panel(x=x, y=Axis("shaft"), rows=rows, levels=levels)])
 
 
@@ -295,18 +307,30 @@ def as_warm(inputs: DriveTrainInputs, result: DriveTrainResult) -> DriveTrainInp
 
 def mesh_as_drawn(inputs: DriveTrainInputs, result: DriveTrainResult) -> Scuffing | None:
     """Solve the mesh without modifications, as if the shafts were rigid and the gears did not expand with heat."""
-    return micropitting.solve_unmodified(contact_of(as_warm(inputs, result)))
+    warm = as_warm(inputs, result)
+    contact, number = contact_of(warm), result.decisive_helix
+    if result.helices is not None and number is not None:  # the decisive helix as a pair of its own
+        given = contact.distribution
+        alone = replace(
+            given,
+            gears=replace(given.gears, gap_width=None),
+            load=replace(given.load, helix_share=result.helices[number - 1].share),
+        )
+        contact = replace(contact, distribution=alone)
+    return micropitting.solve_unmodified(contact)
 
 
 def where_micropitting_starts(inputs: DriveTrainInputs, result: DriveTrainResult, plain: Scuffing | None) -> Figure:
     """Draw two maps of the film ratio over the flank, one of the unit and one of the unmodified mesh."""
     answer = micropitting.answered(result)
-    return micropitting.over_flanks(inputs.mesh, answer, result.flank, plain)
+    figure = micropitting.over_flanks(inputs.mesh, answer, result.flank, plain)
+    return replace(figure, finding=f"{decisive(result)}{figure.finding}")
 
 
 def wear(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Draw the depth of wear over the flanks of pinion and wheel."""
-    return micropitting.wear_on_flank(inputs.mesh, result)
+    figure = micropitting.wear_on_flank(inputs.mesh, result)
+    return replace(figure, finding=f"{decisive(result)}{figure.finding}")
 
 
 def where_heat_goes(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
@@ -334,17 +358,30 @@ def curve_over_the_flow(_: DriveTrainInputs, result: DriveTrainResult) -> FlowCu
 def oil_flow(inputs: DriveTrainInputs, result: DriveTrainResult, curve: FlowCurve) -> Figure:
     """Draw the temperatures of flanks and drained oil, and the safety factor, over the oil flow to the gears."""
     scuffing, oil, used = None, oil_temperature(inputs), result.derived.temperatures
-    if result.safety is not None and result.safety.minimum and used.scuffing is not None and used.bulk is not None:
-        scuffing = (used.scuffing, oil + (used.scuffing - oil) / result.safety.minimum - used.bulk)
-    return heat_balance.over_the_oil_flow(heat_balance.heat_of(result.heat), curve, oil, scuffing, used.origin)
+    heat, bulk = heat_balance.heat_of(result.heat), used.bulk
+    if result.safety is not None and result.safety.minimum and used.scuffing is not None and bulk is not None:
+        if result.helices is not None:  # the curve shows the unit, above which the decisive helix stays as now
+            bulk = float(used.origin.bulk_at(np.array((heat.pinion.flank + heat.wheel.flank) / 2)))
+        scuffing = (used.scuffing, oil + (used.scuffing - oil) / result.safety.minimum - bulk)
+    return heat_balance.over_the_oil_flow(heat, curve, oil, scuffing, used.origin)
 
 
 LOAD_ALONE = Declaration("face-load", "Load along the face", OWN, partial(face_load, others={}))
 GAP = Declaration("gap", "Gap over the face by parts", OWN, gap)
 METHOD, BALANCE = "temperatures.bulk_method", "asks_for_balance"
+DOUBLE = "gears.gap_width_mm"  # its presence makes the gears double helical
 FIGURES = (
     Declaration("shafts", "Shafts, bearings and couplings", "as described", shafts),
     section(lambda inputs: inputs.mesh.distribution.gears),
+    Declaration("helices", "Load and gap of both helices", OWN, helix_figures.over_both, asked_by=DOUBLE),
+    Declaration(
+        "thrust-shares",
+        "Shares and safety over the coupling's thrust",
+        OWN,
+        helix_figures.shares,
+        compute=helix_figures.over_the_thrust,
+        asked_by=DOUBLE,
+    ),
     Declaration("shaft-lines", "Displaced shafts in both planes", OWN, shaft_lines),
     GAP,
     Declaration("slope-parts", "Where the misalignment comes from", OWN, slope_parts),

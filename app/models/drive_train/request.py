@@ -64,6 +64,10 @@ class GroundCurve(Section, of=mesh.LeadCurve):
     """
 
 
+class SecondHelix(Section, of=mesh.SecondHelix):
+    """What differs on the helix at the higher Z; y runs from that helix's own end that meshes first."""
+
+
 class TrainModifications(FlankModifications, of=mesh.Modifications):
     """Gaps between the flanks: modifications that are made by grinding, and misalignment that has other causes.
 
@@ -224,26 +228,22 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
         """Yield the solver's sections of the shaft.
 
         If a section under the teeth has no diameter, the diameter that carries the torsion is used. Raises InvalidInput
-        `section_diameter` if a section has no diameter and is not under the teeth.
+        `section_diameter` if a section has no diameter and is not under the teeth, or reaches from helix to helix.
         """
         teeth = gears.pinion if name == "pinion_shaft" else gears.wheel
-        helices = [
-            (start, start + gears.face_width)
-            for start in (face_start, face_start + gears.total_width - gears.face_width)
-        ]
+        starts = {face_start, face_start + gears.total_width - gears.face_width}
+        helices = [(start, start + gears.face_width) for start in starts]
         position = UNITS["mm"].to_si(self.start_mm)
         for k, cylinder in enumerate(self.sections):
             left_out = cylinder.outer_diameter_mm is None
             default = {"outer_diameter": si.torsion_diameter(gears, teeth)} if left_out else {}
             section = cylinder.si(si.ShaftSection, **default)
             end = position + section.length
-            toothed = any(position < high - si.COINCIDENT and end > low + si.COINCIDENT for low, high in helices)
-            low, high = helices[0][1], helices[1][0]
-            in_gap = high - low > si.COINCIDENT and position < high - si.COINCIDENT and end > low + si.COINCIDENT
-            if left_out and (in_gap or not toothed):
+            toothed = sum(position < high - si.COINCIDENT and end > low + si.COINCIDENT for low, high in helices)
+            if left_out and toothed != 1:
                 message = (
                     "the outer diameter may be left out only under the teeth"
-                    + (", not in the gap between the helices" if in_gap else "")
+                    + (", not in the gap between the helices" if gears.helices > 1 else "")
                     + f"; give the outer diameter of section {k}"
                 )
                 raise InvalidInput("section_diameter", message, f"{name}.sections.{k}.outer_diameter")
@@ -405,6 +405,16 @@ class DriveTrainRequest(MeshInOil):
         for name in ("pinion_bulk_c", "wheel_bulk_c") if self.is_balanced else ():
             if getattr(self.thermal, name) is not None:
                 reasons[f"thermal.{name}"] = "not used, because the heat balance computes the temperatures of the teeth"
+        if self.gears.gap_width_mm is None:
+            second = self.modifications.second_helix
+            given = {
+                "floating_shaft": self.floating_shaft,
+                "operation.axial_force_n": self.operation.axial_force_n,
+                "gears.apex_runout_um": self.gears.apex_runout_um,
+                "modifications.second_helix.helix_slope_um": second and second.helix_slope_um,
+                "modifications.second_helix.lead_crowning_um": second and second.lead_crowning_um,
+            }
+            reasons |= {path: "not used, because the gears have one helix" for path, value in given.items() if value}
         return reasons
 
     def unused(self) -> dict[str, bool]:

@@ -3,6 +3,7 @@
 from types import GenericAlias
 from typing import Any
 
+from app.figures.wording import number, percent
 from app.models.card import FileResult, FromFile, ScuffingPaths, Words
 from app.models.coupling.words import ProportionsInForce
 from app.models.load_distribution.words import MESH_DERIVED
@@ -30,6 +31,8 @@ named(
     OilInForce=OilInUse,
     AlignmentAtTimes=warm_up.AlignmentOverTime,
 )
+OF_A_HELIX = ("safety.minimum", "load.face_load_factor", "misalignment.shaft_slope_um")
+"""Headline numbers that belong to one helix of a double-helical unit."""
 component(derived.DerivedTemperatures, "TemperaturesInForce", BulkInForce)
 component(thrust_budget.Thrust, "ShaftThrust", use=View(limit=1.0))
 component(results.FaceLoad, "TrainLoad", face_load_factor=View(headline=2), contact_fraction=View(percent=True))
@@ -49,7 +52,7 @@ SHAFT = group(results.ShaftResult, "ShaftSummary", without=("curves",))
 component(results.ShaftResult, "ShaftState", base=SHAFT)
 GAPS = group(results.Misalignment, "MisalignmentSummary", without=("curves",), shaft_slope=View(headline=3))
 component(results.Misalignment, "MisalignmentState", base=GAPS)
-HELIX = group(results.HelixResult, "HelixSummary", fields={"misalignment": GAPS})
+HELIX = group(results.HelixResult, "HelixSummary", stands=False, fields={"misalignment": GAPS})
 STATE_DERIVED = group(derived.Derived, "StateDerived", only=("temperatures",))
 component(derived.Derived, "DriveTrainDerived", base=MESH_DERIVED)
 SUMMARY = group(
@@ -81,14 +84,62 @@ def remarks(response: Any) -> dict[str, str]:
     return how_well_known(response, "heat.pinion.flank_c", "heat.wheel.flank_c")
 
 
+def belongs(response: Any) -> dict[str, str]:
+    """Name the helix to which the headline numbers of a double-helical unit belong."""
+    if response.decisive_helix is None:
+        return {}
+    return dict.fromkeys(OF_A_HELIX, f"helix {response.decisive_helix} decides")
+
+
+def conclusion(response: Any) -> str:
+    """Say of a double-helical unit whether its coupling locks, and what is ground on each helix."""
+    if response.axial is None:
+        return ""
+    grind = [
+        f"Grind on helix {place}: slope {number(helix.misalignment.recommended_helix_slope_um, 'µm')}, crowning "
+        f"{number(helix.misalignment.recommended_lead_crowning_um, 'µm')} (first estimate)."
+        for place, helix in enumerate(response.helices, start=1)
+    ]
+    return "\n".join([_locks(response), *grind])
+
+
+def _locks(response: Any) -> str:
+    """Answer whether the coupling of the floating shaft locks, with the shares if it does and if it slides."""
+    axial = response.axial
+    shafts = [coupling["shaft"] for coupling in response.inputs["couplings"]]
+    own = [
+        coupling
+        for shaft, coupling in zip(shafts, response.couplings, strict=False)
+        if shaft == axial.floating_shaft and coupling.held_thrust_fraction is not None
+    ]
+    if not own:
+        return f"No coupling loads the {axial.floating_shaft}, which floats: nothing locks."
+    held = max(coupling.held_thrust_fraction for coupling in own)
+    (least, _), (greatest, _) = axial.share_bounds
+    without = (1.0 + abs(response.inputs["operation"]["axial_force_n"]) / axial.unloading_force_n) / 2
+    locked = max(least, greatest, 1.0 - least, 1.0 - greatest)
+    tilts = " and ".join(number(tilt) for tilt in own[0].tilt_mrad)
+    if held == 0.0:
+        said = f"The coupling does not lock: its hubs tilt by {tilts} mrad and slide"
+    else:
+        said = f"The coupling can lock: tilted by {tilts} mrad, its hubs hold {percent(held)} of their axial friction"
+    free, fast = (f"one helix carries {percent(share)} (K_γ = {number(2.0 * share)})" for share in (without, locked))
+    free = "both helices carry half" if without == 0.5 else free
+    fast = "one helix lifts off" if locked == 1.0 else fast
+    return f"{said}. While it slides, {free}; if dirt or wear lock it, {fast}."
+
+
 WORDS = Words(
     remarks=remarks,
-    chapters=OPTIONAL_CHAPTERS,
+    belongs=belongs,
+    conclusion=conclusion,
+    chapters=OPTIONAL_CHAPTERS | {"axial": "double-helical"},
     losses=("losses.coupling_w", "losses.pumping_w", "losses.mesh_w", "losses.bearings_w"),
     scuffing=ScuffingPaths("flash.contact_max_c", "derived.temperatures.scuffing_c"),
-    of_the_film=frozenset({"safety.minimum"}),
+    of_the_film=frozenset({"safety.minimum", "helices.*.safety.minimum"}),
     from_file=FromFile(unknown=frozenset({"scuffing.application_factor"}), renamed={"load": "operation"}),
     to_file=(
+        FileResult("share", "share", "none"),
         *LOAD_RESULTS,
         FileResult("load.max_pressure_mpa", "maximum_hertzian_pressure", "MPa"),
         FileResult("load.transmission_error_pp_um", "transmission_error_peak_to_peak", "mum"),

@@ -1,12 +1,22 @@
 """What is said of the answers about the load distribution: components and views."""
 
+from typing import Any
+
+from app.figures.wording import percent
 from app.models.card import FromFile, Words
 from app.schema.answers import Response, component, group, named
 from app.schema.quantities import View
 from solvers.scuffing import results
 
 MESH = frozenset({"gears", "load", "materials", "modifications", "friction_coefficient"})
-NOT_OF_A_MESH = frozenset({"gears.hand", "gears.normal_backlash_mm"})  # what only a unit asks for
+NOT_OF_A_MESH = frozenset(  # what only a unit asks for
+    {
+        "gears.hand",
+        "gears.normal_backlash_mm",
+        "modifications.second_helix.helix_slope_um",
+        "modifications.second_helix.lead_crowning_um",
+    }
+)
 
 named(
     FlankPlace=results.Place,
@@ -34,4 +44,27 @@ SCUFFING_DERIVED = group(results.Derived, "ScuffingDerived", base=MESH_DERIVED)
 
 LOAD_DISTRIBUTION = group(results.LoadDistribution, "LoadDistributionResponse", base=Response)
 
-WORDS = Words(losses=("friction_loss.power_w",), from_file=FromFile(MESH, unknown=NOT_OF_A_MESH))
+OF_TWO_HELICES = {"helix": "double-helical"}
+"""The chapter of the manual about double-helical pairs."""
+
+
+def of_helix(response: Any, *paths: str) -> dict[str, str]:
+    """Say to which helix of a double-helical pair the headline numbers at the `paths` belong."""
+    if response.helix is None:
+        return {}
+    share = response.helix.share
+    which = "each of two equal helices" if share == 0.5 else f"the helix that carries {percent(share)}"
+    return dict.fromkeys(paths, which)
+
+
+def belongs(response: Any) -> dict[str, str]:
+    """Name the helix to which the headline numbers belong."""
+    return of_helix(response, "pressure.max_mpa", "load.face_load_factor", "transmission_error.peak_to_peak_um")
+
+
+WORDS = Words(
+    belongs=belongs,
+    chapters=OF_TWO_HELICES,
+    losses=("friction_loss.power_w",),
+    from_file=FromFile(MESH, unknown=NOT_OF_A_MESH),
+)

@@ -133,8 +133,15 @@ def choking_conclusion(response: Any) -> str:
     return f"The flow becomes sonic {listed([*sonic, *never])} of the pinion."
 
 
+def belongs(response: Any) -> dict[str, str]:
+    """Say of the pumping power of double-helical gears that it is that of both helices."""
+    double = response.derived is not None and response.derived.total_face_width_mm is not None
+    return {"total.pumping_power_w": "both helices, each with both ends open"} if double else {}
+
+
 WORDS = Words(
     verdicts=verdicts,
+    belongs=belongs,
     conclusion=conclusion,
     losses=("total.pumping_power_w",),
     from_file=FromFile(

@@ -1,6 +1,7 @@
 """Figures of the heat balance: heat flows, temperatures, effect of the oil flow, uncertainty of the safety."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -124,7 +125,10 @@ def curve_over_the_flow(inputs: ScuffingInputs, result: Scuffing) -> FlowCurve:
     """Solve the heat balance of a pair at oil flows between 0.25 and 4 times the oil flow of the case."""
     if result.heat is None:
         raise NoFigure("no_oil", "Without an oil there is no heat balance", "lubricant")
-    balanced, distribution = with_friction(inputs, solve(inputs.distribution))
+    own, helix = inputs.distribution, result.distribution.helix
+    if helix is not None:
+        own = replace(own, load=replace(own.load, helix_share=helix.share))
+    balanced, distribution = with_friction(replace(inputs, distribution=own), solve(own))
     flow = UNITS["l_per_min"].scale * result.heat.gear_flow
     return over_the_flow(balance_inputs(balanced, distribution), FLOWS * flow)
 

@@ -3,7 +3,14 @@
 from typing import Any
 
 from app.models.card import FileResult, FromFile, ScuffingPaths, Words
-from app.models.load_distribution.words import LOAD_DISTRIBUTION, MESH, NOT_OF_A_MESH, SCUFFING_DERIVED
+from app.models.load_distribution.words import (
+    LOAD_DISTRIBUTION,
+    MESH,
+    NOT_OF_A_MESH,
+    OF_TWO_HELICES,
+    SCUFFING_DERIVED,
+    of_helix,
+)
 from app.schema.answers import Response, component, group, named
 from app.schema.quantities import View
 from solvers.heat_balance import results as heat
@@ -90,6 +97,11 @@ def remarks(response: Any) -> dict[str, str]:
     return how_well_known(response, "contact_temperature.bulk_c")
 
 
+def belongs(response: Any) -> dict[str, str]:
+    """Name the helix to which the headline numbers belong."""
+    return of_helix(response, "safety.blok_factor", "contact_temperature.blok_max_c", "film.thickness_ratio")
+
+
 LOAD_RESULTS = (
     FileResult("load.face_load_factor", "face_load_factor_contact_stress", "none"),
     FileResult("load.max_line_load_n_per_mm", "maximum_line_load", "N / mm"),
@@ -111,7 +123,8 @@ enters the load stage on the page of the calculation.
 
 WORDS = Words(
     remarks=remarks,
-    chapters=OPTIONAL_CHAPTERS,
+    belongs=belongs,
+    chapters=OPTIONAL_CHAPTERS | OF_TWO_HELICES,
     losses=("friction_loss.power_w",),
     scuffing=ScuffingPaths("contact_temperature.blok_max_c", "safety.scuffing_c"),
     of_the_film=frozenset({"film.min_at_psi", "film.thickness_ratio", "unsolved_points"}),
@@ -121,6 +134,7 @@ WORDS = Words(
         renamed={"scuffing.application_factor": "load.application_factor"},
     ),
     to_file=(
+        FileResult("helix.share", "share", "none"),
         *LOAD_RESULTS,
         FileResult("load.contact_fraction", "contact_pattern_fraction", "none"),
         FileResult("pressure.max_mpa", "maximum_hertzian_pressure", "MPa"),

@@ -1,6 +1,8 @@
 """The page of the design study: the best flank correction as a sheet for the grinder, and the course of the search."""
 
-from typing import Any
+from dataclasses import replace
+from functools import cached_property
+from typing import Any, NamedTuple
 
 from app.figures.comparison import compared
 from app.figures.data import Figure, NoFigure, values
@@ -14,7 +16,7 @@ from app.pages.studies.unit import UnitPage, load_figure
 from app.pages.study_kinds import CORNERS, DESIGN
 from app.pages.typesetting import shown
 from app.schema.fields import value_at
-from app.studies.kinds.design import Design
+from app.studies.kinds.design import SECOND_HELIX, Design
 from app.studies.requests import Overrides
 from app.studies.runner import Line
 
@@ -22,6 +24,8 @@ EVALUATIONS = 40  # default of the largest number of evaluations on the page; ch
 STEP_UM = 0.5  # the page rounds the best correction to multiples of this step
 SLOPE, CROWNING = "modifications.helix_slope_um", "modifications.lead_crowning_um"
 TIP, ROOT = "modifications.tip_relief_um", "modifications.root_relief_um"
+SLOPE_2, CROWNING_2 = "modifications.second_helix.helix_slope_um", "modifications.second_helix.lead_crowning_um"
+HELICES = ((SLOPE, CROWNING), (SLOPE_2, CROWNING_2))  # fields of the correction of each helix, in the order of Z
 # The corrections that may be ground. Each entry has a label, the fields that get the value of the correction, and the
 # ends of the default range of the search [um]. The ranges are chosen. They are wider than the corrections that are
 # usual for modules of a few millimetres. The user may change the ranges.
@@ -30,16 +34,11 @@ GROUND = (
     ("crowning", (CROWNING,), 0.0, 20.0),
     ("relief at tip and root", (TIP, ROOT), 0.0, 30.0),
 )
-TRIALS = Control("trials", "evaluations", EVALUATIONS, label="corrections tried")
-ENDS = tuple(
-    control
-    for place, (label, _, low, high) in enumerate(GROUND)
-    for control in (
-        Control(f"low.{place}", f"variables.{place}.min", low, label=f"{label}, from", unit="µm"),
-        Control(f"high.{place}", f"variables.{place}.max", high, label=f"{label}, to", unit="µm"),
-    )
+OF_SECOND_HELIX = (
+    ("helix slope, helix 2", (SLOPE_2,), -100.0, 100.0),
+    ("crowning, helix 2", (CROWNING_2,), 0.0, 20.0),
 )
-"""Two controls per correction, for the ends of the range that is searched."""
+TRIALS = Control("trials", "evaluations", EVALUATIONS, label="corrections tried")
 
 
 class DesignPage(UnitPage):
@@ -48,18 +47,49 @@ class DesignPage(UnitPage):
     link = DESIGN
     question = "what to grind?"
     about = (
-        "The search varies helix slope, crowning and relief. Each correction is judged at its worst corner of the "
-        "uncertain inputs. The search starts from the correction of the case."
+        "The search varies helix slope, crowning and relief; of double-helical gears, slope and crowning of each "
+        "helix. Each correction is judged at its worst corner of the uncertain inputs. The search starts from the "
+        "correction of the case."
     )
     figures = ("lead", LOAD_ALONE.name, GAP.name, "search")
     grows = True
-    left_alone = ("pinion clearance", "wheel clearance", "thrust fraction")  # the uncertain inputs with least influence
     plan = Design
+
+    @cached_property
+    def is_double_helical(self) -> bool:
+        """Whether the case has two helices, each with a correction of its own."""
+        return any(name == "gears.gap_width_mm" and text for name, text in self.asked.pairs)
+
+    @property
+    def ground(self) -> tuple[tuple[str, tuple[str, ...], float, float], ...]:
+        """The corrections that may be ground on the gears of the case."""
+        return (*GROUND, *OF_SECOND_HELIX) if self.is_double_helical else GROUND
+
+    @property
+    def ends(self) -> tuple[Control, ...]:
+        """Two controls per correction, for the ends of the range that is searched."""
+        return tuple(
+            control
+            for place, (label, _, low, high) in enumerate(self.ground)
+            for control in (
+                Control(f"low.{place}", f"variables.{place}.min", low, label=f"{label}, from", unit="µm"),
+                Control(f"high.{place}", f"variables.{place}.max", high, label=f"{label}, to", unit="µm"),
+            )
+        )
+
+    @property
+    def left_alone(self) -> tuple[str, ...]:
+        """The uncertain inputs with least influence, so that a search takes minutes.
+
+        Of two helices, the thrust decides which one carries more; friction and wall response act on both alike.
+        """
+        weak = ("friction", "wall response") if self.is_double_helical else ("thrust fraction",)
+        return ("pinion clearance", "wheel clearance", *weak)
 
     def body(self) -> dict[str, Any]:
         """Return the body of the study's request."""
         output, given = self.output, self.given()
-        for (_, paths, *_), variable in zip(GROUND, given["variables"], strict=True):
+        for (_, paths, *_), variable in zip(self.ground, given["variables"], strict=True):
             variable |= {"path": list(paths), "step": STEP_UM}
         return {
             "request": self.asked.body,
@@ -70,13 +100,13 @@ class DesignPage(UnitPage):
 
     def declared(self) -> tuple[Control, ...]:
         """Return the controls for the number of trials, the ranges of the corrections and the uncertain inputs."""
-        whole = (Control(f"low.{place}", f"variables.{place}", sets=False) for place in range(len(GROUND)))
+        whole = (Control(f"low.{place}", f"variables.{place}", sets=False) for place in range(len(self.ground)))
         objective = Control(OUTPUT.name, "objective", sets=False)
-        return (TRIALS, *ENDS, *whole, objective, *super().declared())
+        return (TRIALS, *self.ends, *whole, objective, *super().declared())
 
     def controls(self) -> tuple[Controls, ...]:
         """Return two groups of form fields."""
-        fields = tuple(map(self.field_of, (TRIALS, *ENDS)))
+        fields = tuple(map(self.field_of, (TRIALS, *self.ends)))
         return Controls("Search", fields=fields), *super().controls()
 
     def result(self, lines: list[Line]) -> Result:
@@ -134,24 +164,20 @@ class DesignPage(UnitPage):
 
     def _sheet(self, case: SolvedCase, at: Overrides) -> Table:
         """Return the sheet for the grinder: gear, place on the flank, amount and tolerance of each correction."""
-        inputs = case.response.inputs
-        slope = float(at[SLOPE] or 0.0)
-        deep, high = _ends(case) if slope < 0.0 else reversed(_ends(case))
+        inputs, faces = case.response.inputs, _faces(case)
         tip, wheel_tip = (
             f"tip relief, {shown(length)} mm along the line of action" if length is not None else "tip relief"
             for length in (value_at(inputs, path.replace("_um", "_length_mm")) for path in (TIP, ROOT))
         )
-        entries = (
-            (SLOPE, "pinion", "helix slope, over the face width", f"{deep} deeper than the {high}, straight between"),
-            (CROWNING, "pinion", "helix crowning", "both ends deeper than the middle of the face"),
-            (TIP, "pinion", tip, "tip deeper than the involute"),
-            (ROOT, "wheel", wheel_tip, "tip deeper than the involute"),
-        )
+        entries = [entry for each in faces for entry in _lead_entries(each, float(at[each.slope] or 0.0))]
+        both = ", both helices" if len(faces) > 1 else ""
+        entries.append((TIP, f"pinion{both}", tip, "tip deeper than the involute"))
+        entries.append((ROOT, f"wheel{both}", wheel_tip, "tip deeper than the involute"))
         rows = []
         for path, gear, feature, place in entries:
-            leaf, described, amount = self.input(path), float(value_at(inputs, path) or 0.0), at[path]
-            if path == SLOPE:  # for the slope, the column `where` shows the sign
-                described, amount = -described if slope < 0.0 else described, abs(slope)
+            leaf, described, amount = self.input(path), _described(case, path), float(at[path] or 0.0)
+            if path in {SLOPE, SLOPE_2}:  # for the slope, the column `where` shows the sign
+                described, amount = -described if amount < 0.0 else described, abs(amount)
             numbers = (shown(described), shown(amount, 4), f"± {shown(leaf.declared.tolerance)}")
             rows.append((gear, feature, place, *numbers, leaf.unit or ""))
         numbered = map(Number, ("as described", "grind", "tolerance"))
@@ -180,13 +206,63 @@ class DesignPage(UnitPage):
         return Table("What it brings", (output.title, Number("as described"), Number("ground so"), "unit"), rows, note)
 
     def _lead_chart(self, case: SolvedCase, at: Overrides) -> Figure:
-        """Return the figure of the lead, which is the sum of helix slope and crowning."""
-        curves, inputs = case.response.misalignment.curves, case.response.inputs
-        position = values(curves.position_mm)
-        wanted = Lead(*(float(at[path] or 0.0) for path in (SLOPE, CROWNING)))
-        before = Lead(*(float(value_at(inputs, path) or 0.0) for path in (SLOPE, CROWNING)))
-        tolerance = Lead(*(self.input(path).declared.tolerance or 0.0 for path in (SLOPE, CROWNING)))
-        return lead_chart(values(curves.z_mm), position / position[-1], wanted, before, tolerance, _ends(case))
+        """Return the figure of the lead, which is the sum of helix slope and crowning.
+
+        The solid line is the lead to grind, with its tolerance band. The dashed line is the lead as entered.
+        """
+        charts = []
+        for each in _faces(case):
+            curves, paths = each.misalignment.curves, (each.slope, each.crowning)
+            position = values(curves.position_mm)
+            wanted = Lead(*(float(at[path] or 0.0) for path in paths))
+            before = Lead(*(_described(case, path) for path in paths))
+            tolerance = Lead(*(self.input(path).declared.tolerance or 0.0 for path in paths))
+            chart = lead_chart(values(curves.z_mm), position / position[-1], wanted, before, tolerance, each.ends)
+            charts.append(replace(chart, panels=[replace(panel, title=each.name or None) for panel in chart.panels]))
+        return replace(charts[0], panels=[panel for chart in charts for panel in chart.panels])
+
+
+class _Face(NamedTuple):
+    """A face with a correction of its own: the only one, or one of two helices."""
+
+    name: str  # empty if it is the only one
+    slope: str  # fields of its correction
+    crowning: str
+    misalignment: Any
+    ends: tuple[str, str]  # names of its ends; that which meshes first comes first
+
+
+def _faces(case: SolvedCase) -> list[_Face]:
+    """Return the faces of the case in the order of Z."""
+    helices = case.response.helices
+    if helices is None:
+        return [_Face("", SLOPE, CROWNING, case.response.misalignment, _ends(case))]
+    found = []
+    for place, (helix, paths) in enumerate(zip(helices, HELICES, strict=True)):
+        first, *_, last = helix.misalignment.curves.z_mm
+        outer = min(first, last) if place == 0 else max(first, last)
+        one, other = (
+            f"{'outer end' if end == outer else 'end at the gap'} (Z = {shown(end)} mm)" for end in (first, last)
+        )
+        found.append(_Face(f"helix {place + 1}", *paths, helix.misalignment, (one, other)))
+    return found
+
+
+def _described(case: SolvedCase, path: str) -> float:
+    """Return a correction of the case [um]; the second helix is as the first where nothing else is said."""
+    inputs = case.response.inputs
+    own = value_at(inputs, path)
+    return float((value_at(inputs, path.replace(SECOND_HELIX, ".")) if own is None else own) or 0.0)
+
+
+def _lead_entries(face: _Face, slope: float) -> list[tuple[str, str, str, str]]:
+    """Return field, gear, correction and place of the two corrections of a face over its width."""
+    deep, high = face.ends if slope < 0.0 else face.ends[::-1]
+    gear = f"pinion, {face.name}" if face.name else "pinion"
+    return [
+        (face.slope, gear, "helix slope, over the face width", f"{deep} deeper than the {high}, straight between"),
+        (face.crowning, gear, "helix crowning", "both ends deeper than the middle of the face"),
+    ]
 
 
 def _ends(case: SolvedCase) -> tuple[str, str]:
@@ -202,20 +278,30 @@ def _ends(case: SolvedCase) -> tuple[str, str]:
 def _numbers(case: SolvedCase, end: Line, at: Overrides) -> Table:
     """Return a table that explains why the pages of a gear unit show different values of helix slope and crowning.
 
-    Each row states one helix slope, one crowning, and the source of both values.
+    Each row states the helix slope and the crowning of each helix, and the source of these values.
     """
-    misalignment, inputs = case.response.misalignment, case.response.inputs
-    estimate = "first estimate: inputs as described, load spread evenly over the face"
+    faces = _faces(case)
+    paths = [path for each in faces for path in (each.slope, each.crowning)]
+    estimates = [
+        estimate
+        for each in faces
+        for estimate in (each.misalignment.recommended_helix_slope_um, each.misalignment.recommended_lead_crowning_um)
+    ]
     entries = (
-        ("as described", value_at(inputs, SLOPE), value_at(inputs, CROWNING)),
-        (estimate, misalignment.recommended_helix_slope_um, misalignment.recommended_lead_crowning_um),
-        ("best at the worst corner, as the search found it", end["best"][SLOPE], end["best"][CROWNING]),
-        (f"to grind: the best in multiples of {STEP_UM:g} µm", at[SLOPE], at[CROWNING]),
+        ("as described", [_described(case, path) for path in paths]),
+        ("first estimate: inputs as described, load spread evenly over the face", estimates),
+        ("best at the worst corner, as the search found it", [end["best"][path] for path in paths]),
+        (f"to grind: the best in multiples of {STEP_UM:g} µm", [at[path] for path in paths]),
     )
+    heads = [
+        Number(", ".join(filter(None, (what, each.name, "µm"))))
+        for each in faces
+        for what in ("helix slope", "helix crowning")
+    ]
     return Table(
         "Which number is which",
-        ("number", Number("helix slope, µm"), Number("helix crowning, µm")),
-        tuple((name, shown(slope, 4), shown(crowning, 4)) for name, slope, crowning in entries),
+        ("number", *heads),
+        tuple((name, *(shown(amount, 4) for amount in amounts)) for name, amounts in entries),
         "A positive helix slope removes material at the end of the face that leaves the mesh last.",
     )
 

@@ -22,13 +22,16 @@ from app.studies.requests import Axis, Overrides
 class UnitPage(StudyPage):
     """Base class of the pages of studies that vary the uncertain inputs of a gear unit.
 
-    `corners` is the field of the request that contains the values of the uncertain inputs. `left_alone` lists inputs
-    that are varied only if the user types values for them.
+    `corners` is the field of the request that contains the values of the uncertain inputs.
     """
 
     outputs = ("safety.blok_flank",)
     corners = "corners"
-    left_alone: tuple[str, ...] = ()
+
+    @property
+    def left_alone(self) -> tuple[str, ...]:
+        """The uncertain inputs that are varied only if the user types values for them."""
+        return ()
 
     @cached_property
     def uncertain(self) -> dict[str, Axis]:

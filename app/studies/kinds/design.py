@@ -15,7 +15,7 @@ from app.schema.quantities import Input
 from app.studies import runner
 from app.studies.fields import NUMBERS, check_value, not_a_number
 from app.studies.point_sets import common_unit, grid, listed
-from app.studies.points import BaseRequest, check_count, check_distinct
+from app.studies.points import SOLVED, BaseRequest, check_count, check_distinct
 from app.studies.requests import (
     RANGES,
     Cases,
@@ -32,6 +32,7 @@ from solvers.drive_train.uncertainty import MOST_CORNERS
 from solvers.errors import NoSolution
 
 FIRST_STEP = 0.15  # trust radius at the start of the search, as a share of the range of a variable
+SECOND_HELIX = ".second_helix."  # fields without a value have that of the first helix, whose path lacks this part
 LAST_STEP = 2e-3  # trust radius at the end of the search, as a share of the range of a variable; chosen
 LEAST_GAIN = 1e-3  # the search ends if a restart gains less than this share of the objective at the start
 VALUE_SCALE = 0.2  # the unit of the scaled objectives, as a share of the objective at the start
@@ -146,8 +147,10 @@ class Design(Study):
             trials.append(trial)
             objectives.append(signed)
             if objectives[0] is None:
+                lacking = "solution" if self.unsolved else f"value of {self.outputs[0].path}"
                 message = (
-                    "the search cannot start, because the gear unit as described has no solution at one of the corners"
+                    f"the search cannot start, because the gear unit as described has no {lacking} at one of the "
+                    "corners"
                 )
                 yield [clock.error("no_start", message)]
                 return
@@ -202,6 +205,7 @@ class Design(Study):
                 for index, point in zip(chunk, points, strict=True):
                     (objective,) = point.out
                     if objective is None:
+                        self.unsolved = point.status not in SOLVED
                         return {"at": at, "objective": None, "worst_corner": self.cases[index]}, None
                     objectives.append(objective)
         sign = 1.0 if self.direction == "minimise" else -1.0
@@ -261,7 +265,10 @@ def _share(variable: Variable, case: dict[str, Any]) -> float:
 
     `case` holds the values of the inputs. If the input has no value, return 0.
     """
-    own = value_at(case, variable.paths[0])
+    path = variable.paths[0]
+    own = value_at(case, path)
+    if own is None and SECOND_HELIX in path:
+        own = value_at(case, path.replace(SECOND_HELIX, "."))
     return 0.0 if own is None else min(max((own - variable.min) / (variable.max - variable.min), 0.0), 1.0)
 
 

@@ -32,7 +32,7 @@ class AxialSplit:
         return self.external + float(sum(hub_loads[place] for place in self.thrusts))
 
     def difference(self, force: float, transmitted: float) -> float:
-        """Difference q of the shares of helix 1 and 2 under an axial force, q = -F_ext/(F_bt d_Z) (Eq. D17)."""
+        """Difference q of the shares of helix 1 and 2 under an axial force, q = -F_ext/(F_bt d_Z) (Eq. D20)."""
         if force == 0.0:
             return 0.0
         return -force / (transmitted * self.lever) if transmitted > 0.0 else float(np.copysign(np.inf, -force))

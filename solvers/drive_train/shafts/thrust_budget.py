@@ -144,7 +144,7 @@ def split_thrust_budget(
     limits: tuple[float, float],
     diameters: tuple[float | None, float | None],
 ) -> tuple[Thrust, Thrust]:
-    """Return the axial forces on the shafts of a double-helical unit (Eq. D19); the parameters of `thrust_budget`.
+    """Return the axial forces on the shafts of a double-helical unit (Eq. D23); the parameters of `thrust_budget`.
 
     `force` [N] is the axial force on the floating shaft, which the mesh passes on to the other shaft's thrust bearing.
     """
