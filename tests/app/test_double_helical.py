@@ -1,7 +1,7 @@
 """Double-helical units as users see them: figures of both helices, which one decides, whether the coupling locks."""
 
 from copy import deepcopy
-from functools import cache, reduce
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -35,7 +35,9 @@ def solved(name: str, **changes: Any) -> tuple[Any, Any]:
     body = deepcopy(example.request) | {"detail": "curves"}
     for path, value in changes.items():
         *around, last = path.split("__")
-        section = reduce(lambda inside, part: inside[int(part) if part.isdecimal() else part], around, body)
+        section: Any = body
+        for part in around:
+            section = section[int(part) if part.isdecimal() else part]
         section[last] = value
     request = calculation.request.model_validate(body)
     return request, evaluate(calculation, request)
