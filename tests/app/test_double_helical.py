@@ -114,6 +114,17 @@ def test_the_answer_says_whether_the_coupling_locks_and_what_is_ground_on_each_h
     assert "hold 25 %" in conclusion(holding)
 
 
+def test_a_unit_without_load_and_one_whose_helix_lifts_off_have_their_words_and_figures(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(helix_figures, "FRACTIONS", np.array([-1.0, 0.0, 1.0]))
+    assert "without load" in conclusion(unit(operation__power_kw=0.0)[1])
+    request, answer = unit(couplings__0__friction__coefficient=0.45)
+    assert conclusion(answer).splitlines()[0].endswith("if dirt or wear lock it, one helix lifts off.")
+    drawn = figure("thrust-shares", request, answer)
+    assert (drawn.unsolved, drawn.finding.partition(";")[0]) == (2, "locked: one helix lifts off")
+
+
 def test_both_helices_stand_side_by_side_in_the_table() -> None:
     _, answer = unit()
     tables = groups(answer)
