@@ -1,7 +1,7 @@
 """Double-helical units as users see them: figures of both helices, which one decides, whether the coupling locks."""
 
 from copy import deepcopy
-from functools import cache, reduce
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -35,7 +35,9 @@ def solved(name: str, **changes: Any) -> tuple[Any, Any]:
     body = deepcopy(example.request) | {"detail": "curves"}
     for path, value in changes.items():
         *around, last = path.split("__")
-        section = reduce(lambda inside, part: inside[int(part) if part.isdecimal() else part], around, body)
+        section: Any = body
+        for part in around:
+            section = section[int(part) if part.isdecimal() else part]
         section[last] = value
     request = calculation.request.model_validate(body)
     return request, evaluate(calculation, request)
@@ -110,6 +112,17 @@ def test_the_answer_says_whether_the_coupling_locks_and_what_is_ground_on_each_h
     holding = answer.model_copy(update={"couplings": [coupling.model_copy(update={"held_thrust_fraction": 0.25})]})
     assert "can lock" in conclusion(holding)
     assert "hold 25 %" in conclusion(holding)
+
+
+def test_a_unit_without_load_and_one_whose_helix_lifts_off_have_their_words_and_figures(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(helix_figures, "FRACTIONS", np.array([-1.0, 0.0, 1.0]))
+    assert "without load" in conclusion(unit(operation__power_kw=0.0)[1])
+    request, answer = unit(couplings__0__friction__coefficient=0.45)
+    assert conclusion(answer).splitlines()[0].endswith("if dirt or wear lock it, one helix lifts off.")
+    drawn = figure("thrust-shares", request, answer)
+    assert (drawn.unsolved, drawn.finding.partition(";")[0]) == (2, "locked: one helix lifts off")
 
 
 def test_both_helices_stand_side_by_side_in_the_table() -> None:

@@ -19,7 +19,7 @@ from solvers.quantity import UNITS
 
 HELICES = (("helix 1", Hue.BLUE), ("helix 2", Hue.VERMILLION))
 FRACTIONS = np.linspace(-1.0, 1.0, 7)  # thrusts of the coupling over the limit of its friction
-LOCKED = (0, -1)  # places of the locked coupling in FRACTIONS
+ENDS = (0, -1)
 SIDES = (-1.0, 1.0)  # friction may act either way
 
 
@@ -150,19 +150,22 @@ def _reached(fraction: float, name: str) -> list[Level]:
 
 
 def _panel(x: Axis, y: Axis, data: Values, reached: list[Level], limits: list[Level]) -> Panel:
+    """Return a panel of both helices, with marks at the ends of what was solved."""
     lines = [Line(name, values(FRACTIONS), values(data[:, k]), hue) for k, (name, hue) in enumerate(HELICES)]
-    marks = [line.mark(place, number(float(line.y[place]), y.unit)) for line in lines for place in LOCKED]
-    return Panel(
-        x=x, y=y, lines=lines, levels=[*limits, *reached], marks=[mark for mark in marks if np.isfinite(mark.y)]
-    )
+    marks = []
+    for line in lines:
+        finite = np.flatnonzero(np.isfinite(line.y))
+        ends = dict.fromkeys(int(finite[place]) for place in ENDS) if finite.size else ()
+        marks += [line.mark(place, number(float(line.y[place]), y.unit)) for place in ends]
+    return Panel(x=x, y=y, lines=lines, levels=[*limits, *reached], marks=marks)
 
 
 def _finding(solved: Shares, held: float) -> str:
     """Return what a locked coupling does, and what one does that holds only the fraction `held` of its friction."""
     texts = []
     for name, fractions in (("locked", SIDES), (f"holding {number(held)}" if held else "sliding", (-held, held))):
-        share = max(float(np.interp(at, FRACTIONS, line)) for at in fractions for line in solved.share.T)
-        factor = min(float(np.interp(at, FRACTIONS, line)) for at in fractions for line in solved.safety.T)
+        share = float(np.max([np.interp(fractions, FRACTIONS, line) for line in solved.share.T]))
+        factor = float(np.min([np.interp(fractions, FRACTIONS, line) for line in solved.safety.T]))
         if np.isfinite(share):
             carried = f"{percent(share)} on one helix"
             texts.append(f"{name}: {carried}" + (f", S_B {number(factor)}" if np.isfinite(factor) else ""))

@@ -114,6 +114,8 @@ def _locks(response: Any) -> str:
     ]
     if not own:
         return f"No coupling loads the {axial.floating_shaft}, which floats: nothing locks."
+    if axial.unloading_force_n == 0.0:
+        return "The coupling does not lock: without load its teeth have no friction."
     held = max(coupling.held_thrust_fraction for coupling in own)
     (least, _), (greatest, _) = axial.share_bounds
     without = (1.0 + abs(response.inputs["operation"]["axial_force_n"]) / axial.unloading_force_n) / 2
