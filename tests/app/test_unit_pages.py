@@ -235,7 +235,7 @@ def test_a_unit_without_the_output_says_which_to_choose(page: type[StudyPage]) -
     without = Asked(bare.path, [pair for pair in bare.pairs if not pair[0].startswith("temperatures.scuffing")])
     study = checked(page, without)
     text = whole(study, lines_of(study))
-    assert "choose another output" in text or "has no solution at one of the corners" in text
+    assert "choose another output" in text
 
 
 @pytest.mark.parametrize("page", [SensitivityPage, CornersPage, DesignPage], ids=lambda page: page.link.name)

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import pytest
 
-from app.rexs.answer import with_results
+from app.rexs.answer import with_answer, with_results
 from app.rexs.document import read
 from tests.rexs.test_fields import MOST_BYTES, PUMPING, SCUFFING, TRAIN, answer, stage_of
 from tests.rexs.units import LOWER, UPPER, Unit, Value, double_helical, gears, held, modified
@@ -204,3 +204,12 @@ def test_results_of_each_helix_are_written_to_its_stage() -> None:
     assert lower["custom_tribodrive_case"] == upper["custom_tribodrive_case"]
     assert "custom_tribodrive_total_power_loss" in lower
     assert "custom_tribodrive_total_power_loss" not in upper, "the unit's loss is not counted twice"
+
+
+def test_the_more_loaded_helix_of_a_pair_is_written_to_both_stages() -> None:
+    document = read(double_helical().xml(), MOST_BYTES)
+    found = {"status": "ok", "case": "0", "load": {"face_load_factor": 1.2}, "helix": {"share": 0.6}}
+    written = read(with_answer(document, [LOWER, UPPER], SCUFFING, found).content, MOST_BYTES).model
+    for stage in (LOWER, UPPER):
+        own = written.components[stage].attributes
+        assert (own["face_load_factor_contact_stress"].value, own[SHARE].value) == ("1.2", "0.6")

@@ -81,7 +81,7 @@ class DesignPage(UnitPage):
     def left_alone(self) -> tuple[str, ...]:
         """The uncertain inputs with least influence, so that a search takes minutes.
 
-        Of two helices, the thrust decides which one carries more; friction and wall response act on both alike.
+        Of two helices, the thrust decides which one carries more; friction scales it, the wall acts on both alike.
         """
         weak = ("friction", "wall response") if self.is_double_helical else ("thrust fraction",)
         return ("pinion clearance", "wheel clearance", *weak)

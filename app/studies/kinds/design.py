@@ -148,9 +148,10 @@ class Design(Study):
             objectives.append(signed)
             if objectives[0] is None:
                 lacking = "solution" if self.unsolved else f"value of {self.outputs[0].path}"
+                hint = "" if self.unsolved else "; choose another output"
                 message = (
                     f"the search cannot start, because the gear unit as described has no {lacking} at one of the "
-                    "corners"
+                    f"corners{hint}"
                 )
                 yield [clock.error("no_start", message)]
                 return
