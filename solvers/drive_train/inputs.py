@@ -349,7 +349,7 @@ class Arrangement:
         le=1000,
         tolerance=2,
         text="of double-helical gears, amplitude over a turn of the pinion; makes the coupling slide to and fro",
-        default_text="what it makes of the coupling's thrust is not told",
+        default_text="not given",
     )
     rotation: Literal["counterclockwise", "clockwise"] = quantity(
         "rotation of the pinion", default="counterclockwise", text="rotation of the pinion, seen from +Z"

@@ -376,7 +376,7 @@ class FlankMaps:
     )
 
 
-@record(kw_only=True)
+@record(kw_only=True, equation="double-helical#the-faces")
 class HelixResult:
     """One helix of a double-helical unit."""
 
@@ -501,6 +501,7 @@ class DriveTrainResult:
         "above; left out without two helices",
         default=None,
         left_out=True,
+        equation="double-helical#which-helix-decides",
     )
 
     @property

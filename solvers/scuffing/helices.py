@@ -74,7 +74,27 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
 
 
 def sized_flow(inputs: ScuffingInputs) -> float | None:
-    """Compute the oil flow to the gears that is sized where none is given [m^3/s]; None if none is sized."""
+    """Compute the oil flow to the gears that is sized where none is given.
+
+    Parameters
+    ----------
+    inputs : ScuffingInputs
+        The pair, single or double helical.
+
+    Returns
+    -------
+    float or None
+        Oil flow [m^3/s]; None if a flow is given or no heat balance runs.
+
+    Examples
+    --------
+    >>> from solvers import scuffing
+    >>> teeth = scuffing.GearTeeth(25), scuffing.GearTeeth(76)
+    >>> gears = scuffing.GearPairInputs(*teeth, 4e-3, 60e-3, rack_tip_radius=0.38)
+    >>> load = scuffing.LoadDistributionInputs(gears, scuffing.Load(900.0, 157.0))
+    >>> scuffing.sized_flow(scuffing.ScuffingInputs(load)) is None
+    True
+    """
     return temperatures.sized_flow(_of_helix(inputs, 1.0 / inputs.distribution.gears.helices))
 
 

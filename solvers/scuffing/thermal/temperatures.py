@@ -93,27 +93,7 @@ def bulk_rule(inputs: ScuffingInputs, distribution: LoadDistribution, flash: Fla
 
 
 def sized_flow(inputs: ScuffingInputs) -> float | None:
-    """Compute the oil flow to the gears that is sized where none is given.
-
-    Parameters
-    ----------
-    inputs : ScuffingInputs
-        The pair.
-
-    Returns
-    -------
-    float or None
-        Oil flow [m^3/s]; None if a flow is given or no heat balance runs.
-
-    Examples
-    --------
-    >>> from solvers import scuffing
-    >>> teeth = scuffing.GearTeeth(25), scuffing.GearTeeth(76)
-    >>> gears = scuffing.GearPairInputs(*teeth, 4e-3, 60e-3, rack_tip_radius=0.38)
-    >>> load = scuffing.LoadDistributionInputs(gears, scuffing.Load(900.0, 157.0))
-    >>> scuffing.sized_flow(scuffing.ScuffingInputs(load)) is None
-    True
-    """
+    """Oil flow to the gears that is sized where none is given [m^3/s]; None if a flow is given or no balance runs."""
     has_oil = inputs.known_oil is not None
     method = method_asked(inputs.temperatures, inputs.cooling, has_oil=has_oil)
     if inputs.cooling.gear_flow is not None or not has_oil or method not in {None, "heat_balance"}:
