@@ -14,6 +14,7 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.scuffing.contact_slices import Peak
 from solvers.scuffing.inputs import ScuffingInputs
+from solvers.scuffing.load_balance import line_loads
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety_results import ThermalPath
 from solvers.scuffing.thermal.blok import blok_flash
@@ -77,6 +78,10 @@ def solve_places(
     """
     given = inputs.distribution
     hottest, thinnest = formulas
+    pitch = distribution.path_of_contact.plane.pitch_point - distribution.path_of_contact.plane.start
+
+    def load(x: FloatArray, y: FloatArray) -> FloatArray:
+        return line_loads(distribution.balance, x, y)
 
     def temperature(x: FloatArray, y: FloatArray) -> FloatArray:
         value = blok_flash(given, contact_at_points(given, distribution, x, y))
@@ -85,15 +90,19 @@ def solve_places(
     def reciprocal_film(x: FloatArray, y: FloatArray) -> FloatArray:
         return thinness(film_at, contact_at_points(given, distribution, x, y))
 
-    search = _Search(inputs, distribution, surfaces)
-    pitch = distribution.path_of_contact.plane.pitch_point - distribution.path_of_contact.plane.start
+    hot: list[Peak] = []
     if hottest is not None:
         on_grid = flash.flash if rise is None else flash.flash + rise(flash.y)
-        peaks = _peaks(flash, on_grid, temperature, hottest, pitch)
-        search.follow(peaks, flash.y, temperature, search.warmth)
-    thin = Peak(1.0 / thinnest.value, thinnest.x, thinnest.y)
-    peaks = _peaks(flash, thinness_map(flash, film_at), reciprocal_film, thin, pitch)
-    search.follow(peaks, flash.y, reciprocal_film, _reciprocal_film)
+        hot = _peaks(flash, on_grid, temperature, hottest, pitch)
+    thinnest = Peak(1.0 / thinnest.value, thinnest.x, thinnest.y)
+    thin = _peaks(flash, thinness_map(flash, film_at), reciprocal_film, thinnest, pitch)
+    tried = [peak.y for peak in (*hot, *thin)]
+    # The load finds the place of the thinnest film too, more exactly than the film, which hardly depends on the load.
+    heaviest = largest_over_face(flash.y, tried, load)
+    warmest = heaviest if rise is None else largest_over_face(flash.y, tried, temperature)
+    search = _Search(inputs, distribution, surfaces)
+    search.follow([peak.x for peak in hot], warmest, search.warmth)
+    search.follow([peak.x for peak in thin], heaviest, _reciprocal_film)
     return search.places()
 
 
@@ -105,26 +114,18 @@ class _Search:
         self._solved: dict[tuple[float, float], SolvedLine] = {}
 
     def follow(
-        self,
-        peaks: Sequence[Peak],
-        face: FloatArray,
-        formula: FlankFunction,
-        value: Callable[[ThermalPath, float], float],
+        self, starts: Sequence[float], across: Callable[[float], float], value: Callable[[ThermalPath, float], float]
     ) -> None:
-        """Solve contacts from every peak of a formula uphill to the next peak of `value`.
-
-        At each x, the contact is the one at the worst face position by the formula.
-        """
+        """Solve contacts from every start uphill to the next peak of `value`, at the worst face position of each x."""
         length = self._distribution.path_of_contact.plane.path_length
-        across = largest_over_face(face, [peak.y for peak in peaks], formula)
 
         @cache
         def at(x: float) -> float:
             y = across(x)
             return value(self._solution(x, y).path, y)
 
-        for peak in peaks:
-            _climb(at, peak.x, length)
+        for start in starts:
+            _climb(at, start, length)
 
     def warmth(self, path: ThermalPath, y: float) -> float:
         """Return how much the hotter surface is hotter than the mean bulk temperature of its gear [K]."""
