@@ -189,7 +189,7 @@ class SecondHelix:
         default_text="as on the first helix",
     )
     lead_curve: LeadCurve | None = quantity(
-        "lead curve of the second helix", default=None, text="any gap along its face; null: as on the first helix"
+        "lead curve", default=None, text="any gap along the second helix's face; null: as on the first helix"
     )
 
 

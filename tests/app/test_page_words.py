@@ -230,7 +230,7 @@ def test_the_page_of_a_gear_unit_has_no_name_of_the_interface() -> None:
         {"field": "/v1/drive-train", "message": "no"},
     ]
     assumed = [{"field": "gears.pinion.profile_shift", "value": 0.0, "reason": "none given"}]
-    stage = {"id": 1, "name": "", "requests": requests, "cases": [], "spectra": {}, "ignored": []}
+    stage = {"id": 1, "name": "", "requests": requests, "cases": [], "spectra": {}, "ignored": [], "helices": []}
     unit: dict[str, Any] = {"version": "1.4", "application": "", "name": "", "findings": []}
     unit["stages"] = [stage | {"missing": missing, "assumed": assumed}]
     text = text_of(unit_page("", unit))

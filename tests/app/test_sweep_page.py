@@ -394,7 +394,8 @@ def test_a_map_marks_the_case_and_the_best_point() -> None:
 def test_the_names_of_a_study_are_those_of_its_form() -> None:
     varied_one, unit = asked(COUPLING, x="operation.torque_n_m"), asked("starter-turbo-gear-drive-train")
     scattering = asked(COUPLING, **{"t9": "friction.coefficient", "t9.by": "0.01"})
-    studies = ((SweepPage, varied_one), (DesignPage, unit), (SpectrumPage, scattering))
+    double = asked("starter-turbo-double-helical")
+    studies = ((SweepPage, varied_one), (DesignPage, unit), (DesignPage, double), (SpectrumPage, scattering))
     pattern = r'<(?:input|select|textarea)\b[^>]*?\bname="([^"]+)"'
     found = [set(re.findall(pattern, opened(page, case))) for page, case in studies]
     assert set.union(*found) >= control_names()
