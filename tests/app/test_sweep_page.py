@@ -399,7 +399,7 @@ def test_the_names_of_a_study_are_those_of_its_form() -> None:
     pattern = r'<(?:input|select|textarea)\b[^>]*?\bname="([^"]+)"'
     found = [set(re.findall(pattern, opened(page, case))) for page, case in studies]
     assert set.union(*found) >= control_names()
-    for names, case in zip(found, (varied_one, unit, scattering), strict=True):
+    for names, case in zip(found, (varied_one, unit, double, scattering), strict=True):
         assert names - control_names() == {WRITTEN, *dict(case.pairs)}
 
 
