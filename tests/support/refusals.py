@@ -22,7 +22,8 @@ RULES = {
     # Gears that cannot be made or do not mesh.
     "/v1/(pumping|scuffing|drive-train)": (
         "pointed_tooth pointed_rack no_tip_clearance no_mesh no_involute no_contact flank_interference "
-        "involute_interference form_diameter negative_backlash too_few_teeth exclusive tip_diameter missing_property"
+        "involute_interference form_diameter negative_backlash too_few_teeth exclusive tip_diameter missing_property "
+        "double_helical_spur"
     ),
     "/v1/coupling": (
         "misalignment_or_offset pitch_errors_length mixed_law mixed_curve misalignment_range no_load not_turning "
@@ -39,14 +40,15 @@ RULES = {
     ),
     "/v1/drive-train": (
         "bearing_data bearing_count bearing_distance bearing_order bearing_outside couplings_on_shaft face_outside "
-        "machine_side position_outside section_diameter stiffness_matrix thrust_collar_radius torque_position"
+        "machine_side position_outside section_diameter stiffness_matrix thrust_collar_radius torque_position "
+        "thrust_collar_double_helical"
     ),
     # Too large or small together, as an offset for its length, or a calculation longer than its deadline.
     "/v1/": "out_of_range unbelievable too_many_objects cannot_finish",
     # Figures of what the case does not have.
     ".*/figures/": (
         "no_modification no_misalignment no_lead_correction no_load no_oil no_solution no_temperature no_rise "
-        "no_scuffing_temperature no_plain_bearing isothermal closed_form not_asked no_film no_wear"
+        "no_scuffing_temperature no_plain_bearing no_coupling isothermal closed_form not_asked no_film no_wear"
     ),
     # What names fields of another endpoint.
     STUDIES: (
