@@ -137,7 +137,7 @@ def test_the_page_writes_results_back_into_the_file() -> None:
 
 def test_assumptions_have_units_and_reasons() -> None:
     assumed = rows(report(SCUFFING), "Assumptions", "Results")
-    assert assumed["oil density at 15 °C ρ15"] == ("880 kg/m³", "by the kind of oil; a data sheet rarely gives it")
+    assert assumed["oil density at 15 °C ρ15"] == ("880 kg/m³", "by the kind of oil; few data sheets state it")
     assert assumed["Eyring stress τ0"][0] == "5 MPa"
     on_page = page(SCUFFING)
     on_page = on_page[on_page.index("<h2>Assumptions") :]
