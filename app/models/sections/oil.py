@@ -21,7 +21,7 @@ def _names_a_sheet(given: dict[str, Any]) -> bool:
     return given.get("iso_vg") is not None or given.get("kinematic_viscosity_40_mm2_per_s") is not None
 
 
-RARELY = "by the kind of oil; a data sheet rarely gives it"
+RARELY = "by the kind of oil; few data sheets state it"
 
 
 def _of_a_sheet(name: str, ge: float, le: float, text: str, assumed: str | None = None) -> Input:
