@@ -14,23 +14,7 @@ ROUNDING = 1e-9  # relative rounding error of numbers that were converted from o
 
 
 def check_inputs(inputs: DriveTrainInputs, path: PathOfContact) -> None:
-    """Check that the shafts, bearings, couplings and the thrust collar fit together.
-
-    Parameters
-    ----------
-    inputs : DriveTrainInputs
-        The unit.
-    path : PathOfContact
-        Path of contact of the gear pair of the unit.
-
-    Raises
-    ------
-    InvalidInput
-        If a part does not fit. The code names the reason: `bearing_count`, `bearing_outside`, `bearing_order`,
-        `bearing_distance`, `face_outside`, `torque_position`, `position_outside`, `section_diameter`,
-        `stiffness_matrix`, `thrust_collar_radius`, `thrust_collar_double_helical`, `machine_side` or
-        `couplings_on_shaft`.
-    """
+    """Raise InvalidInput, with a code for each reason, unless shafts, bearings, couplings and collar fit together."""
     if inputs.heat.states_teeth and not inputs.heat.states_both_teeth:
         missing = "wheel_bulk" if inputs.heat.wheel_bulk is None else "pinion_bulk"
         message = (
@@ -109,10 +93,8 @@ def _check_bearings(inputs: DriveTrainInputs, shaft: Shaft, name: str) -> None:
 
 
 def _is_on(shaft: Shaft, position: float) -> bool:
-    """Return True if a position [m] is on the shaft. The ends belong to the shaft.
-
-    The positions of the ends are sums of lengths. The comparison therefore allows for rounding errors.
-    """
+    """Whether a position [m] is on the shaft, its ends included."""
+    # the ends are sums of lengths, which are rounded
     return shaft.start - COINCIDENT <= position <= shaft.end + COINCIDENT
 
 

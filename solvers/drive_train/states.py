@@ -18,15 +18,14 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     ----------
     inputs : DriveTrainInputs
         The unit.
-    start : FloatArray of shape (stations,), optional
-        Start value of the iteration: the gap due to the shafts of a similar unit [m].
+    start : FloatArray of shape (faces, stations), optional
+        Gap due to the shafts of a similar unit, to start from [m].
 
     Returns
     -------
     DriveTrainResult
-        Results of the hot unit, and of the cold unit if requested. Warnings that only the cold unit has are added to
-        the warnings of the hot unit. If the cold unit has no solution, or if the oil is out of range at the reference
-        temperature, the results of the cold unit are None and a warning states the cause.
+        Results of the hot unit, with the warnings that only the cold one has. The cold unit is None, and a warning says
+        why, if it has no solution or if its oil is out of range at the reference temperature.
 
     Raises
     ------
@@ -34,6 +33,19 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
         The errors of `model.solve` for the hot unit.
     NoSolution
         The errors of `model.solve` for the hot unit.
+
+    Examples
+    --------
+    >>> from solvers import drive_train, pumping, scuffing
+    >>> gears = scuffing.GearPairInputs(scuffing.GearTeeth(25), scuffing.GearTeeth(76), 4e-3, 0.1, rack_tip_radius=0.3)
+    >>> load = scuffing.LoadDistributionInputs(gears, scuffing.Load(900.0, 157.0))
+    >>> mesh = scuffing.ScuffingInputs(load, lubrication="closed_form")
+    >>> gas = pumping.PumpingSetup(gears, model=pumping.PumpingModel(pumping.Flow.INCOMPRESSIBLE))
+    >>> bearings = drive_train.RigidBearing(0.05), drive_train.RigidBearing(0.35)
+    >>> shaft = drive_train.Shaft((drive_train.ShaftSection(0.4, 0.1),), bearings, torque_position=0.0)
+    >>> unit = drive_train.DriveTrainInputs(mesh, gas, 0.15, shaft, shaft)
+    >>> round(drive_train.solve(unit).load.face_load_factor, 1)
+    2.7
     """
     hot = model.solve(inputs, start)
     if "cold" not in inputs.states:

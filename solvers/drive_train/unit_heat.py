@@ -121,6 +121,18 @@ def sized_flow(inputs: DriveTrainInputs) -> float | None:
     -------
     float or None
         Oil flow [m^3/s]; None if a flow is given or no heat balance runs.
+
+    Examples
+    --------
+    >>> from solvers import drive_train, pumping, scuffing
+    >>> gears = scuffing.GearPairInputs(scuffing.GearTeeth(25), scuffing.GearTeeth(76), 4e-3, 0.1, rack_tip_radius=0.3)
+    >>> load = scuffing.LoadDistributionInputs(gears, scuffing.Load(900.0, 157.0))
+    >>> bearings = drive_train.RigidBearing(0.05), drive_train.RigidBearing(0.35)
+    >>> shaft = drive_train.Shaft((drive_train.ShaftSection(0.4, 0.1),), bearings, torque_position=0.0)
+    >>> dry = scuffing.ScuffingInputs(load)
+    >>> unit = drive_train.DriveTrainInputs(dry, pumping.PumpingSetup(gears), 0.15, shaft, shaft)
+    >>> drive_train.sized_flow(unit) is None
+    True
     """
     if inputs.mesh.cooling.gear_flow is not None or not asks_for_balance(inputs):
         return None

@@ -127,15 +127,28 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
     Raises
     ------
     InvalidInput
-        `not_asked` if the unit has no heat balance, `missing_mass` if the casing has an area but the inputs do not
-        give its mass, and the errors of `warm_unit`.
+        `not_asked` if the unit has no heat balance, `missing_mass` if a casing with an area has no mass; the errors of
+        `warm_unit`.
     NoSolution
         `warm_up` if the integration fails; the errors of `warm_unit`.
 
     Notes
     -----
-    During the warm-up the losses change only with the viscosity of the oil. The losses of the warm unit are the
-    reference for this change (Eq. H24).
+    The losses are those of the warm unit, and change only with the viscosity of the oil (Eq. H24).
+
+    Examples
+    --------
+    >>> from solvers import drive_train, pumping, scuffing
+    >>> gears = scuffing.GearPairInputs(scuffing.GearTeeth(25), scuffing.GearTeeth(76), 4e-3, 0.1, rack_tip_radius=0.3)
+    >>> load = scuffing.LoadDistributionInputs(gears, scuffing.Load(900.0, 157.0))
+    >>> mesh = scuffing.ScuffingInputs(load, oil=scuffing.iso_vg(46), lubrication="closed_form")
+    >>> gas = pumping.PumpingSetup(gears, model=pumping.PumpingModel(pumping.Flow.INCOMPRESSIBLE))
+    >>> bearings = drive_train.RigidBearing(0.05), drive_train.RigidBearing(0.35)
+    >>> shaft = drive_train.Shaft((drive_train.ShaftSection(0.4, 0.1),), bearings, torque_position=0.0)
+    >>> unit = drive_train.DriveTrainInputs(mesh, gas, 0.15, shaft, shaft)
+    >>> result = drive_train.solve_warm_up(drive_train.WarmUpInputs(unit))
+    >>> result.warm_up.greatest_difference > 0.0
+    True
     """
     unit = _by_balance(inputs.unit)
     if not asks_for_balance(unit):

@@ -43,11 +43,7 @@ def inverse_involute(value: float) -> float:
 
 @dataclass(frozen=True, slots=True)
 class GearPair:
-    """A meshing pair in the transverse plane; lengths [m], angles [rad].
-
-    `centre_distance` is the centre distance in use. `line_of_action` is the distance N1 N2 between the two base tangent
-    points.
-    """
+    """A meshing pair in the transverse plane; lengths [m], angles [rad]."""
 
     inputs: GearPairInputs
     pinion: Gear
@@ -57,9 +53,9 @@ class GearPair:
     base_helix_angle: float
     transverse_base_pitch: float
     backlash_free_centre_distance: float
-    centre_distance: float
+    centre_distance: float  # in use
     working_pressure_angle: float
-    line_of_action: float
+    line_of_action: float  # distance N1 N2 between the base tangent points
 
     @property
     def pinion_working_radius(self) -> float:
@@ -73,27 +69,10 @@ class GearPair:
 
 
 def gear_pair(inputs: GearPairInputs) -> GearPair:
-    """Compute the geometry of a gear pair.
+    """Radii, angles, base pitch and centre distance of a pair in the transverse plane (Eq. L1).
 
-    Parameters
-    ----------
-    inputs : GearPairInputs
-        The pair.
-
-    Returns
-    -------
-    GearPair
-        Radii, angles, base pitch and centre distance in the transverse plane.
-
-    Raises
-    ------
-    InvalidInput
-        `double_helical_spur`, `pointed_rack`, `no_involute`, `pointed_tooth`, `flank_interference`, `no_mesh` or
-        `no_tip_clearance`.
-
-    Notes
-    -----
-    Eq. L1.
+    Raises InvalidInput: `double_helical_spur`, `pointed_rack`, `no_involute`, `pointed_tooth`, `flank_interference`,
+    `no_mesh` or `no_tip_clearance`.
     """
     check_helices(inputs)
     transverse_module = inputs.normal_module / cos(inputs.helix_angle)
@@ -137,12 +116,9 @@ def _backlash_free_centre_distance(
 
 
 class ContactPlane(NamedTuple):
-    """Rectangle in the plane of action within which the teeth touch.
+    """Rectangle in the plane of action within which the teeth touch; x [m] runs from A to E, y [m] along the face.
 
-    The coordinate x [m] runs from A to E. The coordinate y [m] is measured along the face, from the end that meshes
-    first. Contact line number j has the equation x + y `tan_base_helix` = phase + j `base_pitch`. At x, the roll length
-    of the pinion is `start` + x, and the roll length of the wheel is `line_of_action` - `start` - x. Near a base
-    circle, the reduced radius may be smaller than `least_radius`. Pressure and flash temperature then have no meaning.
+    y begins at the end that meshes first. Contact line j is x + y `tan_base_helix` = phase + j `base_pitch`.
     """
 
     path_length: float
@@ -150,53 +126,33 @@ class ContactPlane(NamedTuple):
     base_pitch: float
     tan_base_helix: float
     cos_base_helix: float
-    start: float
+    start: float  # roll length of the pinion at A; at x it is start + x, that of the wheel line_of_action - start - x
     pitch_point: float
     line_of_action: float
-    least_radius: float
+    least_radius: float  # where the reduced radius is smaller, pressure and flash temperature have no meaning
 
 
 @kernel
 def reduced_radius(plane: ContactPlane, x: Real) -> Real:
-    """Compute the reduced radius of curvature in the normal section.
+    """Reduced radius of curvature R_n = s (N - s)/(N cos beta_b) [m] in the normal section, at x [m] from A.
 
-    Parameters
-    ----------
-    plane : ContactPlane
-        The plane of action.
-    x : Real
-        Distance from A along the path of contact [m].
-
-    Returns
-    -------
-    Real
-        Reduced radius R_n = s (N - s)/(N cos beta_b), where s is the roll length of the pinion and N is the length of
-        the line of action [m].
-
-    Notes
-    -----
-    The contact line is a straight generator of the involute helicoid. Across the contact line, the radius of curvature
-    of the helicoid is r_K/cos beta_b, where r_K is the transverse radius of curvature. Eq. 13 prints
-    r_K cos^3 beta_b/(1 - 2 sin^2 beta_b). This expression agrees with r_K/cos beta_b to second order in beta_b, but
-    the printed expression is singular at beta_b = 45 degrees.
+    s is the roll length of the pinion, N the length of the line of action. For r_K/cos beta_b Eq. 13 prints
+    r_K cos^3 beta_b/(1 - 2 sin^2 beta_b): equal to second order in beta_b, but singular at 45 degrees.
     """
+    # The contact line is a straight generator of the involute helicoid. Across it the radius of curvature of the
+    # helicoid is r_K/cos beta_b, where r_K is the transverse radius of curvature.
     s = plane.start + x
     return s * (plane.line_of_action - s) / (plane.line_of_action * plane.cos_base_helix)
 
 
 @dataclass(frozen=True)
 class PathOfContact:
-    """Path of contact on the line of action.
-
-    `start`, `end` and `pitch_point` are the roll lengths of the pinion [m] at the points A, E and C. `shortened_by`
-    names the gears whose root fillets shorten the path. Without the fillets, the path would extend to the tips of the
-    mating gears.
-    """
+    """Path of contact on the line of action."""
 
     pair: GearPair
-    start: float
-    end: float
-    shortened_by: tuple[str, ...]
+    start: float  # roll length of the pinion at A, m
+    end: float  # at E, m
+    shortened_by: tuple[str, ...]  # gears whose root fillets keep the path from the tips of the mating gears
 
     @property
     def length(self) -> float:
@@ -210,10 +166,7 @@ class PathOfContact:
 
     @property
     def transverse_contact_ratio(self) -> float:
-        """Transverse contact ratio eps_alpha = g_alpha/p_bt [-].
-
-        Eq. 2. The paper prints the circular pitch pi m_t instead of the base pitch p_bt.
-        """
+        """Transverse contact ratio eps_alpha = g_alpha/p_bt [-]; Eq. 2 prints the circular pitch pi m_t for p_bt."""
         return self.length / self.pair.transverse_base_pitch
 
     @property
@@ -250,26 +203,11 @@ class PathOfContact:
         return (self.start + x) / self.pitch_point - 1.0
 
     def surface_speeds(self, x: Real, pinion_speed: float) -> tuple[Real, Real]:
-        """Compute the rolling speeds of both flanks.
+        """Rolling speeds u_1 and u_2 of pinion and wheel [m/s] at x [m] from A; `pinion_speed` [rad/s].
 
-        Parameters
-        ----------
-        x : Real
-            Distance from A along the path of contact [m].
-        pinion_speed : float
-            Speed of the pinion [rad/s].
-
-        Returns
-        -------
-        tuple of Real
-            Speeds u_1 and u_2 of pinion and wheel [m/s].
-
-        Notes
-        -----
-        The velocity of a flank in the direction across the contact line is exactly the angular speed omega times the
-        transverse radius of curvature. Eq. 18 prints the radius of curvature across the contact line instead of the
-        transverse radius. The printed radius is too large by the factor 1/cos beta_b.
+        Eq. 18 prints the radius of curvature across the contact line, which is too large by the factor 1/cos beta_b.
         """
+        # Across the contact line a flank moves at exactly omega times the transverse radius of curvature.
         s = self.start + x
         wheel_speed = pinion_speed * self.pair.pinion.teeth / self.pair.wheel.teeth
         return pinion_speed * s, wheel_speed * (self.pair.line_of_action - s)
@@ -282,27 +220,10 @@ def meshing_path(gears: GearPairInputs) -> PathOfContact:
 
 
 def path_of_contact(pair: GearPair) -> PathOfContact:
-    """Compute the path of contact between the tip circles, limited to the usable involutes.
+    """Path of contact between the tip circles, limited to the usable involutes (Eq. L2).
 
-    Parameters
-    ----------
-    pair : GearPair
-        The pair.
-
-    Returns
-    -------
-    PathOfContact
-        The path from A to E.
-
-    Raises
-    ------
-    InvalidInput
-        `form_diameter` if the fillet of a gear reaches the tip of the same gear; `no_contact` if the tips do not reach
-        the line of action; `involute_interference` if no part of the path is left between the fillets.
-
-    Notes
-    -----
-    Eq. L2.
+    Raises InvalidInput: `form_diameter` if a fillet reaches the tip of its own gear, `no_contact` if the tips do not
+    reach the line of action, `involute_interference` if the fillets leave nothing of the path.
     """
     whole = pair.line_of_action
     check_usable_flank(pair.pinion, "pinion")

@@ -29,8 +29,7 @@ def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
     Parameters
     ----------
     inputs : HeatBalanceInputs
-        The pair or unit. If the inputs contain measured temperatures, the model is first calibrated with the measured
-        temperatures. The calibration uses the oil flow of the inputs.
+        The pair or unit. With measured temperatures, the model is first calibrated at the oil flow of the inputs.
     flows : FloatArray
         Oil flows to the gears, in ascending order [m^3/s].
 
@@ -38,6 +37,17 @@ def over_the_flow(inputs: HeatBalanceInputs, flows: FloatArray) -> FlowCurve:
     -------
     FlowCurve
         Temperatures at these flows.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from solvers import heat_balance, oils
+    >>> oil, mesh = heat_balance.cooling_oil(oils.iso_vg(46), 328.15), heat_balance.MeshHeat(37e3, 368.15, 0.49)
+    >>> gear = heat_balance.GearGeometry(39, 0.2, 6e-3, 0.119, 0.125, 1047.0)
+    >>> inputs = heat_balance.HeatBalanceInputs(heat_balance.Cooling(), oil, (gear, gear), mesh)
+    >>> little, much = heat_balance.over_the_flow(inputs, np.array([1e-3, 2e-3])).drain
+    >>> bool(little > much)
+    True
     """
     network = calibrated(network_of(inputs), inputs.cooling)
     start: FloatArray | None = None

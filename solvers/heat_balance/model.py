@@ -97,6 +97,15 @@ def solve(inputs: HeatBalanceInputs) -> Heat:
     NoSolution
         `heat_balance` if the iteration does not converge; `thermal_runaway` if the equilibrium is not stable; the error
         of the bearing model if a bearing cannot carry its load.
+
+    Examples
+    --------
+    >>> from solvers import heat_balance, oils
+    >>> oil, mesh = heat_balance.cooling_oil(oils.iso_vg(46), 328.15), heat_balance.MeshHeat(37e3, 368.15, 0.49)
+    >>> gear = heat_balance.GearGeometry(39, 0.2, 6e-3, 0.119, 0.125, 1047.0)
+    >>> inputs = heat_balance.HeatBalanceInputs(heat_balance.Cooling(), oil, (gear, gear), mesh)
+    >>> round(heat_balance.solve(inputs).pinion.flank - 273.15)
+    94
     """
     cooling = inputs.cooling
     cooling.check()
@@ -146,6 +155,15 @@ def network_of(inputs: HeatBalanceInputs) -> Network:
     -------
     Network
         The network of nodes and heat flows.
+
+    Examples
+    --------
+    >>> from solvers import heat_balance, oils
+    >>> oil, mesh = heat_balance.cooling_oil(oils.iso_vg(46), 328.15), heat_balance.MeshHeat(37e3, 368.15, 0.49)
+    >>> gear = heat_balance.GearGeometry(39, 0.2, 6e-3, 0.119, 0.125, 1047.0)
+    >>> inputs = heat_balance.HeatBalanceInputs(heat_balance.Cooling(), oil, (gear, gear), mesh)
+    >>> heat_balance.network_of(inputs).nodes
+    ('pinion_flank', 'pinion_body', 'wheel_flank', 'wheel_body', 'mist')
     """
     cooling, oil = inputs.cooling, inputs.oil
     pumping = (cooling.pumping / 2, cooling.pumping / 2) if inputs.pumping is None else inputs.pumping
@@ -177,20 +195,27 @@ def network_of(inputs: HeatBalanceInputs) -> Network:
 def calibrated(network: Network, cooling: Cooling) -> Network:
     """Fit the network to the measured temperatures of one gear and of the drain.
 
-    If the temperatures of both gears were measured, only the temperature of the pinion is used.
-
     Parameters
     ----------
     network : Network
         The network of the nominal case.
     cooling : Cooling
-        What the user states about the cooling.
+        What the user states about the cooling; of two measured gears only the pinion counts.
 
     Returns
     -------
     Network
-        The fitted network. If the temperature of a gear was measured, the wetting share is fitted. If the temperature
-        of the drain was measured, the other losses are fitted.
+        The network with the wetting share that fits the gear, and with the other losses that fit the drain.
+
+    Examples
+    --------
+    >>> from solvers import heat_balance, oils
+    >>> oil, mesh = heat_balance.cooling_oil(oils.iso_vg(46), 328.15), heat_balance.MeshHeat(37e3, 368.15, 0.49)
+    >>> gear = heat_balance.GearGeometry(39, 0.2, 6e-3, 0.119, 0.125, 1047.0)
+    >>> inputs = heat_balance.HeatBalanceInputs(heat_balance.Cooling(), oil, (gear, gear), mesh)
+    >>> hot = heat_balance.Cooling(measured=heat_balance.Measured(pinion_flank=390.0))
+    >>> round(heat_balance.calibrated(heat_balance.network_of(inputs), hot).spray.wetting_share, 2)
+    0.23
     """
     measured = cooling.measured
     if measured.rotors:
@@ -325,12 +350,22 @@ def backlash_loss(
     Returns
     -------
     Heat
-        The result with `backlash_loss` [m]; `backlash_loss` is None if no casing is given.
+        The result with `backlash_loss` [m], which is None if no casing is given.
 
     Notes
     -----
-    Eq. H22: 2 tan(alpha_wt) alpha_L sum r_wi (B_i - C), where alpha_L is the thermal expansion, r_wi is the working
-    pitch radius of gear i, B_i is the temperature of the body of gear i, and C is the temperature of the casing.
+    Eq. H22: 2 tan(alpha_wt) alpha_L sum r_wi (B_i - C), with the expansion alpha_L, the working pitch radius r_wi of
+    gear i, and the temperatures B_i of its body and C of the casing.
+
+    Examples
+    --------
+    >>> from solvers import heat_balance, oils
+    >>> oil, mesh = heat_balance.cooling_oil(oils.iso_vg(46), 328.15), heat_balance.MeshHeat(37e3, 368.15, 0.49)
+    >>> gear = heat_balance.GearGeometry(39, 0.2, 6e-3, 0.119, 0.125, 1047.0)
+    >>> cooling = heat_balance.Cooling(casing=heat_balance.Casing(area=6.0))
+    >>> heat = heat_balance.solve(heat_balance.HeatBalanceInputs(cooling, oil, (gear, gear), mesh))
+    >>> round(heat_balance.backlash_loss(heat, (0.119, 0.119), 0.35, 1.2e-5).backlash_loss * 1e6)
+    43
     """
     if heat.casing is None:
         return heat
@@ -353,6 +388,15 @@ def cooling_in_force(cooling: Cooling, heat: Heat) -> CoolingInForce:
     -------
     CoolingInForce
         Flow, shares and losses in use.
+
+    Examples
+    --------
+    >>> from solvers import heat_balance, oils
+    >>> oil, mesh = heat_balance.cooling_oil(oils.iso_vg(46), 328.15), heat_balance.MeshHeat(37e3, 368.15, 0.49)
+    >>> gear = heat_balance.GearGeometry(39, 0.2, 6e-3, 0.119, 0.125, 1047.0)
+    >>> inputs = heat_balance.HeatBalanceInputs(heat_balance.Cooling(), oil, (gear, gear), mesh)
+    >>> heat_balance.cooling_in_force(inputs.cooling, heat_balance.solve(inputs)).wetting_share
+    0.5
     """
     return CoolingInForce(
         gear_flow=heat.gear_flow,

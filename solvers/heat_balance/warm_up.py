@@ -71,8 +71,8 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
     Returns
     -------
     WarmUp
-        Temperatures of the nodes over time, the time after which each node has made 95 % of its temperature change, and
-        the greatest temperature difference between the bodies of pinion and wheel.
+        Temperatures of the nodes over time, the time to 95 % of each change, and the greatest temperature difference
+        between the bodies of pinion and wheel.
 
     Raises
     ------
@@ -82,6 +82,16 @@ def warm_up(network: Network, capacities: Capacities, start: float, until: float
     Notes
     -----
     Eq. H24: C dT/dt = residual of the network, integrated with backward differentiation formulas.
+
+    Examples
+    --------
+    >>> from solvers import heat_balance, oils
+    >>> oil, mesh = heat_balance.cooling_oil(oils.iso_vg(46), 328.15), heat_balance.MeshHeat(37e3, 368.15, 0.49)
+    >>> gear = heat_balance.GearGeometry(39, 0.2, 6e-3, 0.119, 0.125, 1047.0)
+    >>> inputs = heat_balance.HeatBalanceInputs(heat_balance.Cooling(), oil, (gear, gear), mesh)
+    >>> capacities = heat_balance.Capacities((3e4, 3e4), (2e3, 2e3))
+    >>> round(heat_balance.warm_up(heat_balance.network_of(inputs), capacities, 293.15).time_95[0])
+    157
     """
     final, capacity = equilibrium(network).rises, capacities.of(network)
     rates = jacobian(network, final, network.residual(final)) / capacity[:, None]

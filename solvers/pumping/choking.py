@@ -42,17 +42,26 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
     Raises
     ------
     InvalidInput
-        With the codes of `solve`; choking_not_modelled if the flow model is incompressible; always_choked if the
-        spaces choke even at the lowest speed of the scan.
+        `choking_not_modelled` if the flow is incompressible, `always_choked` if the spaces choke even at the lowest
+        speed of the scan; the codes of `solve`.
     NoSolution
-        With the codes of `solve`.
+        The codes of `solve`.
 
     Notes
     -----
-    Eq. P11. The air that fills the spaces chokes where its expansion to the pressure in the space would exceed Mach 1.
-    A radial gap chokes if the largest pressure, divided by the ambient pressure, reaches the inverse of the
-    critical ratio. An exit chokes if the gas would reach Mach 1 by an expansion to ambient pressure. A scan on a coarse
-    grid brackets the choking speeds. Further solutions on the full grid then refine the choking speeds.
+    Eq. P11. A radial gap chokes where the largest pressure over the ambient one reaches the inverse of the critical
+    ratio, an exit where the gas would reach Mach 1 by an expansion to ambient pressure, and the inflow where the air
+    that fills the spaces would exceed Mach 1 by its expansion to the pressure inside.
+
+    Examples
+    --------
+    >>> from solvers import pumping
+    >>> from solvers.gears.inputs import GearPairInputs, GearTeeth
+    >>> gears = GearPairInputs(GearTeeth(39), GearTeeth(130), 6e-3, 0.2, rack_tip_radius=0.25)
+    >>> chain = pumping.PumpingModel(pumping.Flow.POCKET_CHAIN, slices=4)
+    >>> found = pumping.choking_speeds(pumping.ChokingInputs(pumping.PumpingSetup(gears, model=chain)))
+    >>> round(found.axial_choking_speed)
+    1019
     """
     setup, top = inputs.setup, log(inputs.search_limit)
     if setup.model.flow is Flow.INCOMPRESSIBLE:
@@ -65,7 +74,7 @@ def choking_speeds(inputs: ChokingInputs) -> ChokingSpeeds:
     coarse = max(slices // _COARSENING, 10) if setup.model.flow is Flow.GAS_DYNAMICS else slices
     rough = [_Demand(mesh, space, coarse) for space in mesh.spaces]
     fine = [_Demand(mesh, space, slices) for space in mesh.spaces]
-    scan = _scan(rough, top)
+    scan = _scan(rough, top)  # brackets the speeds on a coarse grid; the full grid then refines them
     radial = _find_lowest([(r.radial, f.radial) for r, f in zip(rough, fine, strict=True)], scan)
     axial = _find_lowest([(r.axial, f.axial) for r, f in zip(rough, fine, strict=True)], scan)
     inflow = _find_lowest([(r.inflow, f.inflow) for r, f in zip(rough, fine, strict=True)], scan)

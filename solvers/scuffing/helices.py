@@ -36,9 +36,34 @@ def helix_share(inputs: LoadDistributionInputs) -> HelixShare | None:
 
 
 def solve_load_distribution(inputs: LoadDistributionInputs) -> LoadDistribution:
-    """Compute load, pressure, transmission error and friction loss of a pair, of its more loaded helix of two.
+    """Compute load, pressure, transmission error and friction loss of a pair, of two helices the more loaded one.
 
-    Raises the errors of `model.solve` and of `helix_share`.
+    Parameters
+    ----------
+    inputs : LoadDistributionInputs
+        The pair, its load and its modifications.
+
+    Returns
+    -------
+    LoadDistribution
+        Results over the plane of action; the friction loss is that of both helices.
+
+    Raises
+    ------
+    InvalidInput
+        The errors of `mesh_of`.
+    NoSolution
+        `load_balance` if the load balance does not converge; the error of `helix_share`.
+
+    Examples
+    --------
+    >>> from solvers import scuffing
+    >>> teeth = scuffing.GearTeeth(25), scuffing.GearTeeth(76)
+    >>> gears = scuffing.GearPairInputs(*teeth, 4e-3, 60e-3, rack_tip_radius=0.38)
+    >>> inputs = scuffing.LoadDistributionInputs(gears, scuffing.Load(900.0, 157.0))
+    >>> result = scuffing.solve_load_distribution(inputs)
+    >>> round(result.load.face_load_factor, 2)
+    1.0
     """
     helix = helix_share(inputs)
     if helix is None:
@@ -51,7 +76,35 @@ def solve_load_distribution(inputs: LoadDistributionInputs) -> LoadDistribution:
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     """Check a pair against scuffing, of two helices the more loaded one.
 
-    Raises the errors of `safety.solve_scuffing` and of `helix_share`.
+    Parameters
+    ----------
+    inputs : ScuffingInputs
+        The pair, its load, its oil and its temperatures.
+
+    Returns
+    -------
+    Scuffing
+        Load distribution, flash temperature, and curves along the checked lines. Film, contact temperature and safety
+        are None if the oil or the bulk temperature is unknown, safety also if the scuffing temperature is.
+
+    Raises
+    ------
+    InvalidInput
+        The errors of `safety.solve_scuffing`.
+    NoSolution
+        The errors of `safety.solve_scuffing` and of `helix_share`.
+
+    Examples
+    --------
+    >>> from solvers import scuffing
+    >>> teeth = scuffing.GearTeeth(25), scuffing.GearTeeth(76)
+    >>> gears = scuffing.GearPairInputs(*teeth, 4e-3, 60e-3, rack_tip_radius=0.38)
+    >>> load = scuffing.LoadDistributionInputs(gears, scuffing.Load(900.0, 157.0))
+    >>> warm = scuffing.Temperatures(oil=343.15, scuffing=573.15)
+    >>> oil = scuffing.iso_vg(220)
+    >>> inputs = scuffing.ScuffingInputs(load, oil=oil, temperatures=warm, lubrication="closed_form")
+    >>> scuffing.solve_scuffing(inputs).safety.verdict
+    'low'
     """
     helix = helix_share(inputs.distribution)
     if helix is None:

@@ -75,34 +75,9 @@ def mesh_of(inputs: LoadDistributionInputs) -> PreparedMesh:
 
 
 def solve(inputs: LoadDistributionInputs) -> LoadDistribution:
-    """Compute load, pressure, transmission error and friction loss of a pair.
+    """Compute load, pressure, transmission error and friction loss of a pair, of two helices those of one.
 
-    Parameters
-    ----------
-    inputs : LoadDistributionInputs
-        The pair, its load and its modifications.
-
-    Returns
-    -------
-    LoadDistribution
-        Results over the plane of action.
-
-    Raises
-    ------
-    InvalidInput
-        The errors that `mesh_of` raises.
-    NoSolution
-        `load_balance` if the load balance does not converge.
-
-    Examples
-    --------
-    >>> from solvers import scuffing
-    >>> teeth = scuffing.GearTeeth(25), scuffing.GearTeeth(76)
-    >>> gears = scuffing.GearPairInputs(*teeth, 4e-3, 60e-3, rack_tip_radius=0.38)
-    >>> inputs = scuffing.LoadDistributionInputs(gears, scuffing.Load(900.0, 157.0))
-    >>> result = scuffing.solve_load_distribution(inputs)
-    >>> round(result.load.face_load_factor, 2)
-    1.0
+    Raises the errors of `mesh_of`, and NoSolution `load_balance` if the load balance does not converge.
     """
     prepared = mesh_of(inputs)
     balance = balance_load(prepared.mesh, prepared.rolls, prepared.force, inputs.resolution.slices)

@@ -64,43 +64,10 @@ SAME = 1e-9  # fractions of the path that differ by less are one; mirror images 
 
 
 def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
-    """Compute the load distribution of a pair and check it against scuffing.
+    """Compute the load distribution of a pair, of two helices that of one, and check it against scuffing (Eq. 16).
 
-    Parameters
-    ----------
-    inputs : ScuffingInputs
-        The pair, its load, its oil and its temperatures.
-
-    Returns
-    -------
-    Scuffing
-        Load distribution, flash temperature, and curves along the checked lines. Film, contact temperature and safety
-        are None if the oil or the bulk temperature is unknown. Safety is also None if the scuffing temperature is
-        unknown.
-
-    Raises
-    ------
-    InvalidInput
-        `exclusive` if a bulk temperature is given although `bulk_method` is "estimated"; the errors of `model.solve`
-        and of `in_force`; the error of the thermal EHL solver if this solver refuses every point.
-    NoSolution
-        The errors of `model.solve` and of `in_force`.
-
-    Notes
-    -----
-    Eq. 16.
-
-    Examples
-    --------
-    >>> from solvers import scuffing
-    >>> teeth = scuffing.GearTeeth(25), scuffing.GearTeeth(76)
-    >>> gears = scuffing.GearPairInputs(*teeth, 4e-3, 60e-3, rack_tip_radius=0.38)
-    >>> load = scuffing.LoadDistributionInputs(gears, scuffing.Load(900.0, 157.0))
-    >>> warm = scuffing.Temperatures(oil=343.15, scuffing=573.15)
-    >>> oil = scuffing.iso_vg(220)
-    >>> inputs = scuffing.ScuffingInputs(load, oil=oil, temperatures=warm, lubrication="closed_form")
-    >>> scuffing.solve_scuffing(inputs).safety.verdict
-    'low'
+    Raises InvalidInput `exclusive` if a bulk temperature is given although `bulk_method` is "estimated"; the errors of
+    `model.solve` and of `in_force`; the error of the thermal EHL solver if this solver refuses every point.
     """
     if inputs.temperatures.bulk_method == "estimated" and inputs.temperatures.bulk is not None:
         message = (

@@ -213,8 +213,11 @@ def _film(inputs: LineContactInputs, constants: Problem, attempt: Attempt) -> Fi
 def warm_up() -> None:
     """Compile every kernel, or load it from the cache, by solving two small contacts.
 
-    Two contacts are enough to reach all kernels, because each kernel chooses the laws of the oil at run time.
+    Examples
+    --------
+    >>> warm_up()
     """
+    # Two contacts reach all kernels, because each kernel chooses the laws of the oil at run time.
     contact = Contact(line_load=1e5, radius=0.01, speed_1=2.0, speed_2=1.5)
     for model in (Model(nodes=61), Model(nodes=61, thermal=False)):
         solve(LineContactInputs(contact, model=model, lubricant=Lubricant()))

@@ -1,16 +1,12 @@
 """The gap over the face at which the gear mesh and the shafts are in equilibrium.
 
-The gap between the flanks determines how the load is distributed over the face. The load bends the shafts, and the bent
-shafts in turn cause a gap. In equilibrium, both gaps are equal. A double-helical pair has a gap on each of its two
-faces, which the shafts join. The unknown is the gap g at the stations, which are points along the face. The residual R
-is g minus the gap that shafts, bearings and couplings cause under the load that belongs to g. Newton's step dg is the
-solution of the linear equations (I - D B) dg = -R. Here B = dQ/dg is the derivative of the mesh force Q. The force Q is
-a mean over a base pitch. The shafts follow only this mean, because the mesh frequency is far higher than the natural
-frequencies of bending and of the bearing films. D is the derivative of the shafts' gap with respect to Q; the response
-of the couplings is part of D. The mean of g over each face is subtracted, because this mean belongs to the transmission
-error and to the axial float. The shares of two faces follow from the thrust of the couplings in the last step. If no
-start value is given, an iteration with fewer roll positions and slices comes first. This first iteration makes most of
-the steps.
+The gap between the flanks spreads the load over the face; the load bends the shafts, which changes the gap. The unknown
+is the gap g at stations along every face. The residual R is g minus the gap that shafts, bearings and couplings cause
+under the load that belongs to g. Newton's step dg solves (I - D B) dg = -R: B = dQ/dg is the derivative of the mesh
+force Q, and D that of the shafts' gap with respect to Q, with the response of the couplings. Q is a mean over a base
+pitch, because the mesh frequency is far higher than the natural frequencies of bending and of the bearing films. The
+mean of g over each face is subtracted: it belongs to the transmission error and to the axial float. The shares of two
+faces follow from the thrust of the couplings in the last step.
 """
 
 from collections.abc import Sequence
@@ -41,18 +37,14 @@ LEAST_STEP = 1 / 64  # chosen: a step that was shortened to a smaller share is a
 
 @dataclass(frozen=True, slots=True)
 class LoadedMesh:
-    """The mesh of a face, and the part of its gap that does not depend on the load.
-
-    `fixed` [m] is this part at points of the face. The mesh force acts on the shafts at the `stations` [m].
-    `scale` converts the force of the contacts into the transverse force that the shafts carry.
-    """
+    """The mesh of a face, and the part of its gap that does not depend on the load."""
 
     prepared: PreparedMesh
-    fixed: FloatArray
-    stations: FloatArray
+    fixed: FloatArray  # this part at points of the face, m
+    stations: FloatArray  # where the mesh force acts on the shafts, m
     force: float
     slices: int
-    scale: float
+    scale: float  # from the force of the contacts to the transverse force that the shafts carry
 
     @property
     def transmitted(self) -> float:
@@ -79,10 +71,7 @@ class LoadedMesh:
         return replace(self, prepared=replace(given, rolls=rolls), slices=self.slices // COARSER)
 
     def respond(self, gap: FloatArray, start: FaceResponse | None = None) -> FaceResponse:
-        """Compute the force of the contacts at the stations.
-
-        The iteration starts from `start`, the response to a similar gap.
-        """
+        """Force of the contacts at the stations; `start` is the response to a similar gap, to start from."""
         count, slices = self.stations.size, self.slices
         # Contact lines of a spur pair run along the face. Therefore all intervals between stations get the same number
         # of slices.
@@ -91,66 +80,37 @@ class LoadedMesh:
         return face_response(self.under(gap), self.prepared.rolls, self.force, slices, count, start)
 
     def balance(self, gap: FloatArray, near: FaceResponse | None = None) -> LoadBalance:
-        """Solve the load balance with the shafts' gap [m].
-
-        The iteration starts from `near`, the response to a similar gap.
-        """
+        """Solve the load balance with the shafts' gap [m]; `near` is the response to a similar gap, to start from."""
         start = None if near is None else (near.error, near.log_load)
         return balance_load(self.under(gap), self.prepared.rolls, self.force, self.slices, start)
 
 
 @dataclass(frozen=True, slots=True)
 class Equilibrium:
-    """Equilibrium of mesh and shafts.
+    """Equilibrium of mesh and shafts."""
 
-    `gap` (faces, stations) [m] is the gap that the shafts cause, minus the mean over each face; `mean_gap` (faces,) [m]
-    are these means. `meshes` are the meshes of the faces under their shares of the force. `loads` are the loads at the
-    stations and on the hubs [N, N m]. `by_gap` [N/m] is the derivative of the force at the stations of all faces with
-    respect to an additional gap at the stations. This derivative includes the responses of both mesh and shafts.
-    """
-
-    gap: FloatArray
-    mean_gap: FloatArray
+    gap: FloatArray  # (faces, stations) m, that the shafts cause, minus the mean over each face
+    mean_gap: FloatArray  # (faces,) m, these means
     shares: FloatArray
-    meshes: tuple[LoadedMesh, ...]
-    loads: FloatArray
+    meshes: tuple[LoadedMesh, ...]  # of the faces, under their shares of the force
+    loads: FloatArray  # at the stations and on the hubs, N and N m
     hubs: HubLoads
     balances: tuple[LoadBalance, ...]
-    by_gap: FloatArray
+    by_gap: FloatArray  # N/m, of the forces by an additional gap, both at all stations, as mesh and shafts respond
     iterations: int
     residual: float
 
 
 def equilibrium(unit: Unit, meshes: tuple[LoadedMesh, ...], start: FloatArray | None = None) -> Equilibrium:
-    """Find the gap at which mesh and shafts are in equilibrium, by Newton's iteration.
+    """Find the gap at which mesh and shafts are in equilibrium, by Newton's iteration (Eq. D11).
 
-    Parameters
-    ----------
-    unit : Unit
-        Shafts, bearings and couplings.
-    meshes : tuple of LoadedMesh
-        The mesh of every face, each under the whole force.
-    start : FloatArray of shape (faces, stations), optional
-        Gap from which the iteration starts; by default the gap of the coarse mesh [m].
-
-    Returns
-    -------
-    Equilibrium
-        The gap, with the loads and the response at this gap.
-
-    Raises
-    ------
-    NoSolution
-        `drive_train` with the residual [um] if the iteration does not converge, `helix_unloaded` if one helix of two
-        lifts off.
-
-    Notes
-    -----
-    Eq. D11.
+    `meshes` are those of the faces, each under the whole force. `start` (faces, stations) [m] is the gap to start from,
+    by default that of a coarse mesh. Raises NoSolution: `drive_train` with the residual [um] if the iteration does not
+    converge, `helix_unloaded` if one of two helices lifts off.
     """
     force = meshes[0].transmitted
     hubs = free_hubs(unit, uniform_force(force, unit.stations.size, [1 / len(meshes)] * len(meshes)))
-    if start is None:
+    if start is None:  # fewer roll positions and slices make most of the steps
         start, hubs = _rough(unit, tuple(mesh.coarser for mesh in meshes), hubs)
     state = _evaluate(unit, meshes, start, hubs, None)
     for iteration in range(1, ITERATIONS + 1):
@@ -193,15 +153,11 @@ def shares_of(unit: Unit, hubs: HubLoads, force: float) -> FloatArray:
 
 
 def _rough(unit: Unit, meshes: tuple[LoadedMesh, ...], hubs: HubLoads) -> tuple[FloatArray, HubLoads]:
-    """Return an approximate gap and the loads of the hubs, by an iteration with the coarse mesh.
-
-    The iteration starts from a uniform load. This iteration may end before it has converged, because the iteration with
-    the full mesh follows.
-    """
+    """Return an approximate gap and the loads of the hubs, by an iteration with the coarse mesh from a uniform load."""
     count, force = unit.stations.size, meshes[0].transmitted
     answer = respond(unit, uniform_force(force, count, list(shares_of(unit, hubs, force))), hubs)
     state = _evaluate(unit, meshes, remove_mean(_of_faces(answer.motion, unit)), answer.hubs, None)
-    for _ in range(ROUGH_ITERATIONS):
+    for _ in range(ROUGH_ITERATIONS):  # may end before it has converged: the full mesh follows
         if state.size <= ROUGH_TOLERANCE:
             break
         state = _advance(unit, meshes, state)
@@ -229,10 +185,7 @@ def _equilibrium_at(state: "_State", iterations: int) -> Equilibrium:
 
 @dataclass(frozen=True, slots=True)
 class _State:
-    """Gaps of the faces, the meshes and their responses under the shares, and the motion of the shafts.
-
-    `moved` is what the shares would still change.
-    """
+    """Gaps of the faces, the meshes and their responses under the shares, and the motion of the shafts."""
 
     gap: FloatArray
     meshes: tuple[LoadedMesh, ...]
@@ -241,7 +194,7 @@ class _State:
     shares: FloatArray
     mean_gap: FloatArray
     residual: FloatArray
-    moved: float
+    moved: float  # what the shares would still change
 
     @property
     def size(self) -> float:
@@ -301,11 +254,10 @@ def _matrix(state: _State) -> FloatArray:
 
 
 def _advance(unit: Unit, meshes: tuple[LoadedMesh, ...], state: _State) -> _State:
-    """Return the state after Newton's step.
+    """Return the state after Newton's step, halved until every part of the unit has a solution and the residual falls.
 
-    The step is halved until two conditions are met: every part of the unit has a solution after the step, and the
-    residual falls. If less than `LEAST_STEP` of the step is left, the residual need not fall, and a part without a
-    solution raises NoSolution.
+    If less than `LEAST_STEP` of the step is left, the residual need not fall, and a part without a solution raises
+    NoSolution.
     """
     step = remove_mean(solve_linear(_matrix(state), -state.residual.ravel()).reshape(state.gap.shape))
     share = 1.0

@@ -1,10 +1,9 @@
 """Tilts of the coupling hubs in equilibrium with the loads of the couplings.
 
-The ports of a unit are the stations of the face and the hubs on the unit's shafts (see `influence`). A coupling has
-one hub on a shaft of the unit and one hub on a machine. The motion u of the hub on the shaft determines the tilts of
-both hubs: x = rest + lever u. Here `rest` contains the tilts for u = 0, and `lever` is a constant matrix. The loads
-p(x) of the coupling bend the shaft, and the bent shaft moves the hub on the shaft. Newton's step on x has the matrix
-I - lever D dp/dx. Here D is the derivative of u with respect to the loads of the couplings.
+A coupling has one hub on a shaft of the unit and one on a machine. The motion u of the hub on the shaft determines the
+tilts of both, x = rest + lever u. The loads p(x) of the coupling bend the shaft, which moves the hub. Newton's step on
+x has the matrix I - lever D dp/dx; D is the derivative of u with respect to the loads of the couplings. `influence`
+defines the ports of a unit.
 """
 
 from dataclasses import dataclass
@@ -29,36 +28,26 @@ PATH_TOLERANCE = 1e-6  # in scales of the tilts
 
 @dataclass(frozen=True, slots=True)
 class HubLoads:
-    """Tilts of all hubs, and the loads of the couplings.
+    """Tilts of all hubs, and the loads of the couplings."""
 
-    Each coupling has four `tilts` [rad] and five `loads` [N, N m]. `by_tilts` is the derivative of the loads with
-    respect to the tilts.
-    """
-
-    tilts: FloatArray
-    loads: FloatArray
-    by_tilts: FloatArray
+    tilts: FloatArray  # four of each coupling, rad
+    loads: FloatArray  # five of each coupling, N and N m
+    by_tilts: FloatArray  # derivative of the loads
 
 
 @dataclass(frozen=True, slots=True)
 class Yielding:
-    """Motion of the ports under a force over the face, with the hubs in balance.
-
-    `hubs` holds the tilts of the hubs and the loads of the couplings in this balance. `derivative` (stations, stations)
-    [m/N] is the derivative of the stations' motion with respect to the force. The response of the hubs is part of this
-    derivative.
-    """
+    """Motion of the ports under a force over the face, with the hubs in balance."""
 
     hubs: HubLoads
     motion: FloatArray
-    derivative: FloatArray
+    derivative: FloatArray  # (stations, stations) m/N, of the stations' motion by the force, as the hubs respond
 
 
 def free_hubs(unit: Unit, force: FloatArray) -> HubLoads:
-    """Compute the tilts of the hubs while the shafts carry only a force over the face [N].
+    """Tilts of the hubs while the shafts carry only a force over the face [N], and the couplings' loads at these tilts.
 
-    The result also contains the loads of the couplings at these tilts, although these loads do not act on the shafts.
-    Raises InvalidInput if a tilt is out of the range of the coupling model.
+    These loads do not act on the shafts. Raises InvalidInput if a tilt is out of the range of the coupling model.
     """
     ports = unit.couplings
     if not ports:
@@ -68,19 +57,16 @@ def free_hubs(unit: Unit, force: FloatArray) -> HubLoads:
 
 
 def respond(unit: Unit, force: FloatArray, start: HubLoads) -> Yielding:
-    """Compute the motion of the ports under a force over the face, with the hubs in balance (Eq. D12).
+    """Motion of the ports under a force over the face, with the hubs in balance (Eq. D12).
 
-    Up to three iterations are tried. The first iteration starts from `start`. The second iteration starts from the
-    tilts of the hubs without coupling loads. Before the third iteration, the coupling loads grow step by step from
-    zero. The third iteration starts from the tilts at the last of these steps. Raises InvalidInput: if a hub tilts too
-    far for the coupling model while the shafts carry no coupling loads. Raises NoSolution: `drive_train` with the
-    residual of the tilts [rad] if no iteration converges.
+    Raises InvalidInput if a hub tilts too far for the coupling model even without coupling loads on the shafts, and
+    NoSolution `drive_train` with the residual of the tilts [rad] if none of three iterations converges.
     """
     yielding, residual = _solve(unit, force, start)
     if yielding is None:
         free = free_hubs(unit, force)
         yielding, residual = _solve(unit, force, free)
-        if yielding is None:
+        if yielding is None:  # so the loads of the couplings grow step by step from zero
             yielding, residual = _solve(unit, force, _raise_loads(unit, force, free))
     if yielding is None:
         raise NoSolution(
@@ -91,19 +77,14 @@ def respond(unit: Unit, force: FloatArray, start: HubLoads) -> Yielding:
 
 @dataclass(frozen=True, slots=True)
 class _State:
-    """Hubs at assumed tilts, the resulting motion of the shafts, and the residual of the tilts.
-
-    The residual is the assumed tilts minus the tilts that follow from the motion. `by_tilts` is the derivative of the
-    residual with respect to the tilts. `by_share` is the derivative of the residual with respect to the fraction of
-    the coupling loads that acts on the shafts.
-    """
+    """Hubs at assumed tilts, the resulting motion of the shafts, and the residual of the tilts."""
 
     hubs: HubLoads
     motion: FloatArray
     derivative: FloatArray
-    residual: FloatArray
-    by_tilts: FloatArray
-    by_share: FloatArray
+    residual: FloatArray  # the assumed tilts minus those that follow from the motion
+    by_tilts: FloatArray  # derivative of the residual
+    by_share: FloatArray  # the same by the fraction of the coupling loads that acts on the shafts
 
     @property
     def size(self) -> float:
@@ -126,10 +107,7 @@ def _evaluate(unit: Unit, force: FloatArray, hubs: HubLoads, share: float = 1.0)
 
 
 def _solve(unit: Unit, force: FloatArray, hubs: HubLoads) -> tuple[Yielding | None, float]:
-    """Find the balance of the tilts by Newton's iteration.
-
-    Return the balance and the last residual [rad]. The balance is None if the iteration fails.
-    """
+    """Find the balance of the tilts by Newton's iteration: None if it fails, and the last residual [rad]."""
     state = _evaluate(unit, force, hubs)
     for _ in range(TILT_ITERATIONS):
         if state.size <= TILT_TOLERANCE:
@@ -152,10 +130,9 @@ def solve_linear(matrix: FloatArray, right: FloatArray) -> FloatArray:
 
 
 def _advance(unit: Unit, force: FloatArray, state: _State, step: FloatArray) -> _State:
-    """Return the state after a step of the tilts.
+    """Return the state after a step of the tilts, halved until all models accept the tilts and the residual falls.
 
-    The step is halved until two conditions are met: the models of all couplings and bearings accept the tilts, and the
-    residual falls. If less than `LEAST_STEP` of the step is left, the residual need not fall.
+    If less than `LEAST_STEP` of the step is left, the residual need not fall.
     """
     share = 1.0
     while True:
@@ -209,29 +186,21 @@ def _raise_loads(unit: Unit, force: FloatArray, free: HubLoads) -> HubLoads:
 
 
 def _sizes(tilts: FloatArray) -> FloatArray:
-    """Return a scale [rad] for each component of the tilts.
-
-    The scale is the magnitude of the tilt to which the component belongs. If this magnitude is below `LEAST_SIZE`, the
-    scale is `LEAST_SIZE`.
-    """
+    """Scale of each component of the tilts [rad]: the magnitude of the tilt it belongs to, at least `LEAST_SIZE`."""
     return np.repeat(np.maximum(np.hypot(tilts[::2], tilts[1::2]), LEAST_SIZE), 2)
 
 
 def _path_direction(state: _State, scale: FloatArray, direction: FloatArray) -> FloatArray:
-    """Return the unit tangent of the path that `_raise_loads` follows, with tilts divided by their scales.
-
-    `direction` is the direction of the last step. The angle between the tangent and `direction` is acute, so that the
-    path is not followed backwards.
-    """
+    """Return the unit tangent of the path in scaled tilts, at an acute angle to `direction`, that of the last step."""
+    # The angle is acute so that the path is not followed backwards.
     tangent = solve_linear(_path_matrix(state, scale, direction), np.append(np.zeros(scale.size), 1.0))
     return np.asarray(tangent / np.linalg.norm(tangent))
 
 
 def _path_matrix(state: _State, scale: FloatArray, direction: FloatArray) -> FloatArray:
-    """Return the matrix of Newton's step for the path that `_raise_loads` follows.
+    """Return the matrix of Newton's step on the path, for the scaled tilts and the fraction of the coupling loads.
 
-    The unknowns are the scaled tilts and the fraction of the coupling loads. The last row is the derivative of the
-    distance along `direction`. The other rows are the derivatives of the scaled residual.
+    The last row is the derivative of the distance along `direction`; the others are those of the scaled residual.
     """
     return np.vstack([np.column_stack([state.by_tilts * scale, state.by_share]) / scale[:, None], direction])
 
@@ -239,10 +208,9 @@ def _path_matrix(state: _State, scale: FloatArray, direction: FloatArray) -> Flo
 def _find_on_path(
     unit: Unit, force: FloatArray, start: _State, share: float, scale: FloatArray, step: FloatArray
 ) -> tuple[float, _State] | None:
-    """Find the next point of the path that `_raise_loads` follows, by Newton's iteration.
+    """Find the next point of the path, in the plane through the end of `step` and normal to it, by Newton's iteration.
 
-    The point lies in the plane that passes through the end of the vector `step` and is normal to this vector. Return
-    the fraction of the coupling loads at the point, and the state there. Return None if the iteration fails.
+    Return the fraction of the coupling loads and the state there; None if the iteration fails.
     """
     length = float(np.linalg.norm(step))
     place = step

@@ -29,19 +29,14 @@ class Face:
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """Directions and lever arms in X, Y, Z, and the faces in the order of Z.
+    """Directions and lever arms in X, Y, Z, and the faces in the order of Z."""
 
-    `rotation` is +1 if the pinion turns counter-clockwise about Z, else -1. `radial` points from pinion to wheel.
-    `transverse_force` points in the direction of the transverse force on the pinion. `arms` point from the axes of
-    pinion and wheel to the pitch point [m]. `down` (X, Y) points in the direction of gravity.
-    """
-
-    rotation: float
+    rotation: float  # +1 if the pinion turns counter-clockwise about Z, else -1
     faces: tuple[Face, ...]
-    radial: FloatArray
-    transverse_force: FloatArray
-    arms: tuple[FloatArray, FloatArray]
-    down: FloatArray
+    radial: FloatArray  # from pinion to wheel
+    transverse_force: FloatArray  # direction of the transverse force on the pinion
+    arms: tuple[FloatArray, FloatArray]  # from the axes of pinion and wheel to the pitch point, m
+    down: FloatArray  # direction of gravity (X, Y)
 
     def shaft_rotation(self, shaft: int) -> float:
         """Return the sense of rotation of the shaft of the pinion (0) or the wheel (1)."""
@@ -49,29 +44,13 @@ class Frame:
 
 
 def frame(arrangement: Arrangement, path: PathOfContact, face_start: float) -> Frame:
-    """Compute the frame of reference of a unit.
+    """Frame of reference of a unit whose face, or first helix, begins at Z = `face_start` [m] (Eq. D1).
 
-    Parameters
-    ----------
-    arrangement : Arrangement
-        Position and rotation of the unit.
-    path : PathOfContact
-        Path of contact of the gear pair of the unit.
-    face_start : float
-        Z of the lower end of the face, or of the first helix [m].
-
-    Returns
-    -------
-    Frame
-        Directions [-] and lever arms [m].
-
-    Notes
-    -----
-    Eq. D1. sigma is the sense of rotation, and e_r points from pinion to wheel. e_t = sigma Z x e_r is the direction of
-    the pinion's velocity at the pitch point C. The flank force on the pinion opposes this velocity:
-    n_t = -(cos a_wt e_t + sin a_wt e_r). A helix adds the component -tan beta_b along y. The direction of y is
-    -sigma h Z, where h is +1 for a right-hand pinion and -1 for a left-hand pinion. A spur pair meshes over the whole
-    face at once; for a spur pair h is always +1. The second helix of a double-helical pair has the other hand.
+    sigma is the sense of rotation, e_r points from pinion to wheel, and e_t = sigma Z x e_r is the direction of the
+    pinion's velocity at the pitch point C. The flank force on the pinion opposes it:
+    n_t = -(cos a_wt e_t + sin a_wt e_r). A helix adds -tan beta_b along y, which points along -sigma h Z; h is +1 for a
+    right-hand pinion and for a spur pair, which meshes over the whole face at once, else -1. The second helix of a
+    double-helical pair has the other hand.
     """
     pair = path.pair
     rotation = 1.0 if arrangement.rotation == "counterclockwise" else -1.0

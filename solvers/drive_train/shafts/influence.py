@@ -1,12 +1,11 @@
 """Shafts, bearings and couplings as one elastic system.
 
-Under given loads, the system yields the gap over the face and the motion of the coupling hubs. The stations along the
-face (of double-helical gears: along both faces, one after the other) and the hubs are called ports. A force at a
-station loads both shafts with a force, a tilting moment and a torque.
-A holds the coefficients of these loads, C is the flexibility of the shafts, and Q holds the forces at the stations. The
-elastic gap is then A^T C A Q. The matrix A^T C A is symmetric and positive semidefinite, and Q^T A^T C A Q is twice the
-strain energy. If loads q act at the ports, the bearings carry L q. If the bearings are displaced by u, the ports move
-by L^T u.
+Under given loads it yields the gap over the face and the motion of the coupling hubs. Its ports are the hubs and the
+stations along the face (of double-helical gears: along both faces, one after the other). A force at a station loads
+both shafts with a force, a tilting moment and a torque. With the coefficients A of these loads, the flexibility C of
+the shafts and the forces Q at the stations, the elastic gap is A^T C A Q. The matrix A^T C A is symmetric and positive
+semidefinite, and Q^T A^T C A Q is twice the strain energy. Under loads q at the ports the bearings carry L q; bearings
+displaced by u move the ports by L^T u.
 """
 
 from dataclasses import dataclass
@@ -26,25 +25,17 @@ from solvers.gears.pair import PathOfContact
 
 @dataclass(frozen=True, slots=True)
 class ShaftPorts:
-    """A shaft with N nodes, and the loads on these nodes.
-
-    The ports are the stations along the face and the hubs of the couplings. `loads` (2 planes, 2N, ports) and `torques`
-    (N, ports) are the loads on the nodes per unit load at a port. `mesh_loads` (2 planes, 2N, stations) holds only the
-    transverse forces at the stations.
-
-    `weight` and `collar` (2 planes, 2N) are constant loads. `weight` is the weight of the shaft, and of the part of
-    each sleeve that the shaft carries. `collar` is the moment of the thrust collar under the axial force of the mesh.
-    """
+    """A shaft with N nodes, and the loads on these nodes."""
 
     model: ShaftModel
     shaft: Shaft
     speed: float
     rotation: float
-    loads: FloatArray
-    mesh_loads: FloatArray
-    torques: FloatArray
-    weight: FloatArray
-    collar: FloatArray
+    loads: FloatArray  # (2 planes, 2N, ports) on the nodes per unit load at a port
+    mesh_loads: FloatArray  # (2 planes, 2N, stations), of the transverse forces alone
+    torques: FloatArray  # (N, ports)
+    weight: FloatArray  # (2 planes, 2N), of the shaft and of the part of each sleeve that it carries
+    collar: FloatArray  # (2 planes, 2N), moment of the thrust collar under the axial force of the mesh
 
     @property
     def fixed(self) -> FloatArray:
@@ -64,29 +55,23 @@ class ShaftPorts:
 class Unit:
     """The elastic system of a unit. Its ports are the stations of all faces, and five motions per coupling.
 
-    `stations` [m] are the positions y on a face, the same on every face.
-
-    The five motions are those of the shaft at the hub of the coupling: the displacements U and V along X and Y, both
-    slopes, and the displacement along Z. The displacement along Z follows from the slopes at the thrust collar. The
-    displacement along Z is 0 if there is no collar. At a coupling of the wheel it is always 0.
-
-    `elastic` (ports, ports) [m/N, ...] is the flexibility with the bearings at rest. `rest` is the motion of the ports
-    under the constant loads. If loads q act at the ports, the bearings carry `bearing_loads` @ q + `bearing_rest` [N].
-    The order is: X and Y at the pinion's first bearing, X and Y at the pinion's second bearing, then the same for the
-    wheel. `offsets` [m] are the offsets of the bores in the same order. `split` is None for a single helix.
+    The five motions are those of the shaft at the hub: the displacements U and V along X and Y, both slopes, and the
+    displacement along Z. The last follows from the slopes at the thrust collar: it is 0 without a collar, and always at
+    a coupling of the wheel. Under loads q at the ports the bearings carry `bearing_loads` @ q + `bearing_rest` [N]: X
+    and Y at the pinion's first bearing, X and Y at its second, then the same for the wheel.
     """
 
     frame: Frame
-    stations: FloatArray
+    stations: FloatArray  # positions y on a face, the same on every face, m
     shafts: tuple[ShaftPorts, ShaftPorts]
     bearing_film: BearingFilm
     couplings: tuple[CouplingPort, ...]
-    elastic: FloatArray
-    rest: FloatArray
+    elastic: FloatArray  # (ports, ports) m/N, ...; flexibility with the bearings at rest
+    rest: FloatArray  # motion of the ports under the constant loads
     bearing_loads: FloatArray
     bearing_rest: FloatArray
-    offsets: FloatArray
-    split: AxialSplit | None
+    offsets: FloatArray  # of the bores, in the order of the bearing loads, m
+    split: AxialSplit | None  # None for a single helix
 
     @property
     def count(self) -> int:
@@ -109,10 +94,7 @@ class Unit:
         ]
 
     def motion(self, loads: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Return the motion of the ports under given loads.
-
-        Also return the derivative (ports, ports) of the motion with respect to the loads.
-        """
+        """Return the motion of the ports under given loads, and its derivative (ports, ports) with respect to them."""
         states = self.bearings(loads)
         displacement = np.concatenate([state.displacement for state in states]) + self.offsets
         yielding = np.zeros((8, 8))
@@ -123,24 +105,7 @@ class Unit:
 
 
 def unit(inputs: DriveTrainInputs, path: PathOfContact) -> Unit:
-    """Assemble shafts, bearings and couplings of a unit into one elastic system.
-
-    Parameters
-    ----------
-    inputs : DriveTrainInputs
-        The unit.
-    path : PathOfContact
-        Path of contact of the gear pair of the unit.
-
-    Returns
-    -------
-    Unit
-        The elastic system.
-
-    Notes
-    -----
-    Eq. D3.
-    """
+    """Assemble shafts, bearings and couplings of a unit into one elastic system (Eq. D3)."""
     directions, plane = frame(inputs.arrangement, path, inputs.face_start), path.plane
     stations = np.linspace(0.0, plane.face_width, inputs.face_stations)
     load = inputs.mesh.distribution.load
@@ -205,10 +170,7 @@ def _shaft_ports(
     speed: float,
     index: int,
 ) -> ShaftPorts:
-    """Return a shaft and the loads on its nodes per unit load at the ports.
-
-    `index` is 0 for the shaft of the pinion and 1 for the shaft of the wheel.
-    """
+    """Return the shaft of the pinion (0) or of the wheel (1), and the loads on its nodes per unit load at the ports."""
     shaft, name, sign = inputs.shafts[index], ("pinion", "wheel")[index], (1.0, -1.0)[index]
     on_faces = [(face, float(z)) for face in directions.faces for z in face.positions(stations)]
     z = np.array([position for _, position in on_faces])
@@ -257,10 +219,9 @@ def _collar_loads(
     position: float,
     index: int,
 ) -> FloatArray:
-    """Return the nodal loads of an axial force of 1 N at the thrust collar; without a collar the loads are 0.
+    """Nodal loads of an axial force of 1 N at the thrust collar, towards +Z on the pinion; 0 without a collar.
 
-    The force points towards +Z on the pinion and towards -Z on the wheel. It acts at the radius of the collar, and
-    therefore loads the shaft with a tilting moment. This moment acts at the end y = b of the face.
+    At the radius of the collar the force is a tilting moment, which acts at the end y = b of the face.
     """
     loads = np.zeros((2, 2 * model.z.size))
     if inputs.collar_radius is not None:

@@ -1,8 +1,7 @@
 """The axial forces on both shafts.
 
-The axial force of the mesh is known. The axial force that friction causes in a coupling has a known limit, but an
-unknown sign. API 613 (5th ed., 2003) adds the magnitudes of both forces. According to API 613, the load on the thrust
-bearing must not exceed half the ultimate rating of the bearing.
+The axial force of the mesh is known; friction in a coupling causes one of known limit and unknown sign. API 613 (5th
+ed., 2003) adds the magnitudes of both, and allows half the ultimate rating of the thrust bearing.
 """
 
 from solvers.drive_train.inputs import DriveTrainInputs
@@ -68,27 +67,7 @@ class Thrust:
 
 
 def mesh_thrust(inputs: DriveTrainInputs, path: PathOfContact, directions: Frame) -> float:
-    """Compute the axial force of the mesh on the pinion of a single-helical unit.
-
-    Parameters
-    ----------
-    inputs : DriveTrainInputs
-        The unit.
-    path : PathOfContact
-        Path of contact of the gear pair of the unit.
-    directions : Frame
-        The unit's frame of reference.
-
-    Returns
-    -------
-    float
-        Axial force sigma h F_bt tan beta_b, positive towards +Z [N].
-
-    Notes
-    -----
-    Eq. D14. Here sigma is the sense of rotation of the pinion, h is +1 for a right-hand pinion and -1 for a left-hand
-    pinion, F_bt is the transverse force, and beta_b is the base helix angle.
-    """
+    """Axial force sigma h F_bt tan beta_b of a single helix on the pinion, towards +Z [N] (Eq. D14; signs: `frame`)."""
     tangential = inputs.mesh.distribution.load.torque / path.pair.pinion.base_radius
     return float(tangential * directions.faces[0].force[2])
 
@@ -100,31 +79,13 @@ def thrust_budget(
     limits: tuple[float, float],
     diameters: tuple[float | None, float | None],
 ) -> tuple[Thrust, Thrust]:
-    """Compute the axial forces on both shafts and the bounds of the load on each thrust bearing.
+    """Axial forces on the shafts of pinion and wheel, and the bounds of the loads on their thrust bearings (Eq. D14).
 
-    Parameters
-    ----------
-    inputs : DriveTrainInputs
-        The unit.
-    mesh : float
-        Axial force of the mesh on the pinion [N].
-    couplings : tuple of float
-        Thrust of the couplings on the pinion's shaft, and thrust of the couplings on the wheel's shaft [N].
-    limits : tuple of float
-        Largest thrust on each shaft that the friction in the couplings of this shaft can cause [N].
-    diameters : tuple of float or None
-        Diameter of each shaft at the coupling [m]; None for a shaft without a coupling.
-
-    Returns
-    -------
-    tuple of Thrust
-        Axial forces on the shafts of pinion and wheel [N].
-
-    Notes
-    -----
-    Eq. D14. A thrust collar transfers the thrust of the pinion's couplings to the wheel's thrust bearing.
+    For each shaft: `couplings` is the thrust of its couplings, `limits` the largest that their friction can cause [N],
+    `diameters` its diameter at the coupling [m], None without one. `mesh` [N] acts on the pinion.
     """
     pinion, wheel = limits
+    # A thrust collar passes the thrust of the pinion's couplings on to the wheel's thrust bearing.
     bounds: tuple[_Bounds, _Bounds] = (
         ((None, None), (-pinion - wheel, pinion + wheel))
         if inputs.collar_radius is not None
@@ -186,11 +147,7 @@ def _thrusts(
 
 
 def _use(lower: float | None, upper: float | None, ultimate: float | None) -> float | None:
-    """Return the largest load on the thrust bearing divided by the permissible load of the bearing.
-
-    The permissible load is half of the ultimate rating `ultimate`. Return None if the rating is not given or if there
-    is no thrust bearing.
-    """
+    """Largest load on the thrust bearing over half its ultimate rating; None without a rating or a thrust bearing."""
     if lower is None or upper is None or ultimate is None:
         return None
     return max(abs(lower), abs(upper)) / (USABLE * ultimate)
