@@ -68,7 +68,7 @@ STATEMENTS: tuple[Statement, ...] = (
     Says(f"{MILIAN}, Table 3", "and of case 2").calculated(
         455.0, "mm", lambda: case(2).geometry.backlash_free_centre_distance * 1e3, 1e-4
     ),
-    Says(f"{MILIAN}, Fig. 3", "space between the teeth at the begin of its stroke").calculated(
+    Says(f"{MILIAN}, Fig. 3", "space between the teeth at the start of its stroke").calculated(
         162.25, "mm²", lambda: pinion(table_1()).stroke.max_area * 1e6, 2e-4
     ),
     Says(f"{MILIAN}, Fig. 3", "and at its narrowest").calculated(

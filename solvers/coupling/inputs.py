@@ -67,7 +67,7 @@ class Coupling:
         default=1.0,
         ge=0.2,
         le=1e3,
-        text=("crowning radius over pitch radius; 1 is heavily crowned, 10 slightly"),
+        text="crowning radius over pitch radius; 1 is heavily crowned, 10 slightly",
     )
     hub_distance: float = quantity(
         "distance of the tooth planes",
@@ -387,7 +387,7 @@ class ModelOptions:
         "b_Ix",
         f"{PAHL}, Fig. 8",
         default="face",
-        text=("what limits the oil inlet: the face ahead of the contact, the travel of the contact, or nothing"),
+        text="what limits the oil inlet: the face ahead of the contact, the travel of the contact, or nothing",
         assumed="the paper does not define the inlet length",
         advanced=True,
     )
@@ -412,7 +412,7 @@ class ModelOptions:
         le=360,
         text="tooth angle whose hydrodynamic velocity builds the film, 90 at the tilt position",
         default_text="that of the largest hydrodynamic velocity",
-        assumed=("that of the largest hydrodynamic velocity of a revolution; the paper does not say which it takes"),
+        assumed="that of the largest hydrodynamic velocity of a revolution; the paper does not say which it takes",
         advanced=True,
         tolerance=1,
     )

@@ -436,7 +436,7 @@ class OrbitResult:
         "change in the last sweep",
         "Δe",
         unit="um",
-        text=("how far the path still moved in the last sweep; small once it repeats"),
+        text="how far the path still moved in the last sweep; small once it repeats",
     )
     derived: Geometry = quantity("radius used")
     warnings: tuple[Notice, ...]

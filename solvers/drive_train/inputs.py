@@ -368,7 +368,7 @@ class Arrangement:
         "direction of gravity", "γ_g", unit="deg", default=-90.0, ge=-360, le=360, tolerance=1, text="from X towards Y"
     )
     gravity_factor: float = quantity(
-        "gravity factor", "g/g_0", default=1.0, ge=0, le=10, tolerance=0.1, text=("weight relative to that on earth")
+        "gravity factor", "g/g_0", default=1.0, ge=0, le=10, tolerance=0.1, text="weight relative to that on earth"
     )
 
 
@@ -478,7 +478,7 @@ class Effects:
     """The effects that the model takes into account; `coupling` has no effect if `shafts` is false."""
 
     shafts: bool = quantity(
-        "shafts", default=True, text=("whether shafts and bearings yield; if not, couplings have no effect either")
+        "shafts", default=True, text="whether shafts and bearings yield; if not, couplings have no effect either"
     )
     coupling: bool = quantity("couplings", default=True, text="whether couplings load their shafts")
     thermal: bool = quantity("heat", default=True, text="whether heat deforms the flanks")
@@ -549,7 +549,7 @@ class DriveTrainInputs:
     bearing_film: BearingFilm = quantity(
         "film of the plain bearings",
         default="finite",
-        text=("bearing of finite width, or short bearing, which is too stiff if wider than a third of its diameter"),
+        text="bearing of finite width, or short bearing, which is too stiff if wider than a third of its diameter",
         advanced=True,
     )
     face_stations: int = quantity(
@@ -558,13 +558,13 @@ class DriveTrainInputs:
         default=41,
         ge=5,
         le=201,
-        text=("stations at which shafts and mesh act on each other"),
+        text="stations at which shafts and mesh act on each other",
         advanced=True,
     )
     local_bulk: bool = quantity(
         "local bulk temperature",
         default=False,
-        text=("whether the bulk temperature is higher where more heat is pumped"),
+        text="whether the bulk temperature is higher where more heat is pumped",
     )
     bulk_given: bool = described(
         "Whether the bulk temperature is given: the cold unit then has the same one, else the reference temperature.",

@@ -44,7 +44,7 @@ class Parts:
     films_wheel: float = quantity("slope by the wheel's bearings", "f_f2", unit="um")
     bearing_offsets: float = quantity("slope by offsets of the bores", "f_o", unit="um")
     coupling: float = quantity(
-        "slope by the couplings", "f_c", unit="um", text=("elastic part; the yielding of films counts for the bearings")
+        "slope by the couplings", "f_c", unit="um", text="elastic part; the yielding of films counts for the bearings"
     )
     collar: float = quantity("slope by the thrust collar", "f_k", unit="um", text="elastic")
     weight: float = quantity("slope by the weight", "f_w", unit="um", text="elastic")
@@ -83,7 +83,7 @@ class Misalignment:
     shaft_crown: float = quantity("crown by the shafts", "C_sh", unit="um")
     shaft_range: float = quantity("range of the shafts' gap", "R_sh", unit="um")
     shaft_mean: float = quantity(
-        "mean of the shafts' gap", "g_m", unit="um", text=("part of the gap that becomes transmission error")
+        "mean of the shafts' gap", "g_m", unit="um", text="part of the gap that becomes transmission error"
     )
     parts: Parts = quantity("slope by parts")
     thermal_slope: float = quantity("slope by heat", "f_th", unit="um")
@@ -98,13 +98,13 @@ class Misalignment:
         "helix slope to grind",
         "f_Hβ,rec",
         unit="um",
-        text=("for the pair, sized for a load spread evenly over the face"),
+        text="for the pair, sized for a load spread evenly over the face",
     )
     recommended_lead_crowning: float = quantity(
         "helix crowning to grind",
         "C_β,rec",
         unit="um",
-        text=("for the pair; undoes only the crowns due to shafts and heat"),
+        text="for the pair; undoes only the crowns due to shafts and heat",
     )
     recommended_profile_slope: float = quantity("profile slope to grind", "f_Hα,rec", unit="um", text="of the pair")
     curves: GapCurves = quantity("gap over the face", detail="curves")
@@ -283,7 +283,7 @@ class TrainSafety:
         text="at the decisive places of the flank",
     )
     minimum: float | None = quantity(
-        "safety factor against scuffing", "S_B", text=("smallest of the safety factors; null if one is unknown")
+        "safety factor against scuffing", "S_B", text="smallest of the safety factors; null if one is unknown"
     )
 
 
@@ -316,7 +316,7 @@ class TrainLosses:
         equation="heat-balance#losses",
     )
     total: float | None = quantity("total loss", "P_L", unit="w", text="null without the loss of the mesh")
-    efficiency: float | None = quantity("efficiency", "η", text=("null without power, or if the losses exceed it"))
+    efficiency: float | None = quantity("efficiency", "η", text="null without power, or if the losses exceed it")
 
 
 @record(equation="drive-train#bearings")

@@ -143,7 +143,7 @@ class Cooling:
         ge=0.1,
         le=5000,
         default_text="sized by its temperature rise",
-        assumed=("the flow that mesh friction and windage warm by the sizing rise; other heat does not order more oil"),
+        assumed="the flow that mesh friction and windage warm by the sizing rise; other heat does not order more oil",
     )
     flow_rise: float = quantity(
         "rise by which the flow is sized",

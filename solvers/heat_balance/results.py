@@ -31,7 +31,7 @@ class GearTemperatures:
         "h_turn",
         OWN,
         unit="um",
-        text=("film thickness that carries 0.9 of the flooded heat"),
+        text="film thickness that carries 0.9 of the flooded heat",
         equation="H5",
     )
     oil_limited: bool = quantity(
@@ -76,7 +76,7 @@ class HeatLosses:
     windage: float = quantity("windage", "P_wind", unit="w", equation="H8")
     bearings: float = quantity("bearing losses", "P_B", unit="w", equation="D5")
     couplings: float = quantity(
-        "coupling losses", "P_C", unit="w", text=("friction of the couplings; not part of the balance"), equation="D9"
+        "coupling losses", "P_C", unit="w", text="friction of the couplings; not part of the balance", equation="D9"
     )
     other: float = quantity("other losses", "P_other", unit="w", equation="heat-balance#losses")
     jets: float = quantity(
@@ -158,7 +158,7 @@ class Heat:
     balance: Balance = quantity("balance of heat")
     estimates: BulkEstimates = quantity("estimates of the bulk")
     band: HeatBand | None = quantity(
-        "band of the balance", text=("range of the results over the uncertain cooling; null if the cooling is given")
+        "band of the balance", text="range of the results over the uncertain cooling; null if the cooling is given"
     )
     wheel_deviation: float | None = quantity(
         "deviation of the wheel",
@@ -172,7 +172,7 @@ class Heat:
         "Δθ_D",
         unit="k",
         default=None,
-        text=("calculated minus measured; positive: the calculated losses warm the drain more than was measured"),
+        text="calculated minus measured; positive: the calculated losses warm the drain more than was measured",
         equation="H20",
     )
     backlash_loss: float | None = quantity(

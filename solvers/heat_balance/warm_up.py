@@ -47,7 +47,7 @@ class WarmUp:
         "t_95",
         unit="s",
         index="nodes",
-        text=("null for a part that changes by less than 5 % or is not there"),
+        text="null for a part that changes by less than 5 % or is not there",
     )
     greatest_difference: float = quantity("greatest difference of the bodies", "Δθ_max", unit="k")
     greatest_difference_at: float = quantity("time of the greatest difference", "t_Δ", unit="s")

@@ -148,7 +148,7 @@ class PumpingModel:
         text=(
             "at the narrowest section between the flanks, sealed in contact, or at the tip corners of the mating gear"
         ),
-        assumed=("flanks in contact seal; with the paper's tip corners the flow at its test speeds is far from sonic"),
+        assumed="flanks in contact seal; with the paper's tip corners the flow at its test speeds is far from sonic",
         advanced=True,
     )
     wall_transport: bool = quantity(

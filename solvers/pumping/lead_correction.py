@@ -37,7 +37,7 @@ class LeadCurves:
         "radial thermal growth", "d_r", unit="um", text="the part of the larger radius alone", axis="position"
     )
     correction: FloatArray = quantity(
-        "lead correction", "C", unit="um", text=("lead correction that compensates the thermal growth"), axis="position"
+        "lead correction", "C", unit="um", text="lead correction that compensates the thermal growth", axis="position"
     )
 
 

@@ -82,7 +82,7 @@ class MassFlow:
         "uncertainty of the net mass flows",
         "Δm",
         unit="g_per_s",
-        text=("three times the change at half the resolution; front and rear are small differences of out and in"),
+        text="three times the change at half the resolution; front and rear are small differences of out and in",
         equation="P15",
     )
     radial_uncertainty: float = quantity(
@@ -100,7 +100,7 @@ class Balance:
 
     mass_error: float = quantity("mass balance error", text="relative error of the mass balance")
     energy_error: float | None = quantity(
-        "energy balance error", text=("relative error of the energy balance; null if the model conserves no energy")
+        "energy balance error", text="relative error of the energy balance; null if the model conserves no energy"
     )
 
 
@@ -285,7 +285,7 @@ class Choking:
     slices: int = quantity(
         "slices of the verdict",
         "N_v",
-        text=("slices that the verdict needed; the other results use `slices`"),
+        text="slices that the verdict needed; the other results use `slices`",
         equation="P15",
     )
 

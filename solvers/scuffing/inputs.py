@@ -630,7 +630,7 @@ class MicropittingCheck:
             "or the permissible specific film thickness instead"
         ),
         default_text="no safety factor, unless a permissible film thickness is given",
-        assumed=("no failure load stage and no permissible film thickness given: films without a safety factor"),
+        assumed="no failure load stage and no permissible film thickness given: films without a safety factor",
     )
     surface: FlankSurfaces = quantity("surfaces of the flanks", default_factory=FlankSurfaces)
     material_factor: float | None = quantity(

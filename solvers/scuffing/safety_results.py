@@ -437,7 +437,7 @@ class Scuffing:
     heat: Heat | None = quantity(
         "heat balance",
         default=None,
-        text=("null if the bulk temperature needs no balance: given, estimated, up to 20 m/s, or without an oil"),
+        text="null if the bulk temperature needs no balance: given, estimated, up to 20 m/s, or without an oil",
     )
     flank_flash: FloatArray = described(
         "Flash temperature by Blok over the flank [profile, face]; NaN if it is unbounded, or if the coefficient of "

@@ -118,7 +118,7 @@ class Model:
         XUE,
         default="ree_eyring",
         text="how shear stress depends on shear rate",
-        assumed=("gear oils thin under shear; the paper's Newtonian film has unphysical friction near pure rolling"),
+        assumed="gear oils thin under shear; the paper's Newtonian film has unphysical friction near pure rolling",
         advanced=True,
     )
     eyring_stress: float = quantity(

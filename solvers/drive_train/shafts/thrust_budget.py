@@ -37,7 +37,7 @@ class Thrust:
         "force of the thrust collar",
         "F_k",
         unit="n",
-        text=("axial force of mesh and pinion couplings on the collar; null without a collar"),
+        text="axial force of mesh and pinion couplings on the collar; null without a collar",
     )
     lower: float | None = quantity(
         "least bearing thrust", "F_ax,min", API_613, unit="n", text="null where a collar or the mesh holds the shaft"

@@ -84,7 +84,7 @@ class LocalFilm:
         "risk of micropitting",
         None,
         "common practice",
-        text=("safety below 1: likely; 1 to 2: limited margin; above 2: unlikely; null without a safety factor"),
+        text="safety below 1: likely; 1 to 2: limited margin; above 2: unlikely; null without a safety factor",
     )
     friction_coefficient: float | None = quantity(
         "coefficient of friction against micropitting",
