@@ -60,15 +60,10 @@ def _obstacles(stage: StageDraft) -> Iterator[tuple[Component, str]]:
         if stage.face_interval(place) is None:
             yield gear, "the file does not say at which position of the shaft the gear sits"
     if stage.driver is None or not stage.flow.knows(stage.pair):
-        hidden = stage.stage.id in stage.flow.hidden
-        yield (
-            stage.stage,
-            (
-                "the power and the speed of this stage are determined through a stage that is not modelled"
-                if hidden
-                else "the file does not determine the power and the speed of this stage"
-            ),
-        )
+        reason = "the file does not determine the power and the speed of this stage"
+        if stage.stage.id in stage.flow.hidden:
+            reason = "the power and the speed of this stage are determined through a stage that is not modelled"
+        yield stage.stage, reason
 
 
 def bearings_of(stage: StageDraft, shaft: Component) -> list[Component]:
@@ -106,7 +101,9 @@ class _DriveTrain:
         rotation = "counterclockwise" if speed > 0.0 else "clockwise"
         stage.put("operation.rotation", rotation, stage.shafts[0], "rotational_speed")
         self._directions()
-        self._temperatures()
+        stage.take(table.REFERENCE_TEMPERATURE, self._reading.model.first("gear_unit"))
+        for gear, row in zip(stage.gears, table.TOOTH_TEMPERATURES, strict=True):
+            stage.take(row, gear)
         for place in (0, 1):
             if not self._shaft(place):
                 return False
@@ -133,13 +130,6 @@ class _DriveTrain:
             return
         u, v, w = (part or 0.0 for part in parts)
         self._stage.put(path, self._angle(self._in_file(unit, (u, v, w))), unit, "direction_vector_gravity_v")
-
-    def _temperatures(self) -> None:
-        """Fill in the reference temperature and the tooth temperatures of both gears."""
-        stage = self._stage
-        stage.take(table.REFERENCE_TEMPERATURE, self._reading.model.first("gear_unit"))
-        for gear, row in zip(stage.gears, table.TOOTH_TEMPERATURES, strict=True):
-            stage.take(row, gear)
 
     def _angle(self, direction: Vector) -> float:
         """Return the angle [deg] from the X axis to a direction, positive towards the Y axis."""
@@ -262,9 +252,8 @@ class _DriveTrain:
             relative = reading.number(bearing, "relative_clearance_plain_bearing")
             bore = reading.number(bearing, table.BEARING_BORE)
             if "radial_clearance_um" not in fields and relative is not None and bore is not None:
-                fields["radial_clearance_um"] = (
-                    relative * bore * 500.0
-                )  # 500: 1000 um per mm, and the radial clearance is half the diametral clearance
+                # 500: 1000 um per mm, and the radial clearance is half the diametral clearance
+                fields["radial_clearance_um"] = relative * bore * 500.0
             return fields
         stiffness = reading.number(bearing, "radial_stiffness", "N/um")
         if stiffness is not None and stiffness >= RIGID_FROM_N_PER_UM:

@@ -65,6 +65,10 @@ class LoadCase:
     attributes: dict[int, dict[str, Attribute]]
 
 
+NO_CASE = LoadCase("", {})
+"""The load case in which every attribute is that of the model."""
+
+
 @dataclass(frozen=True)
 class RexsUnit:
     """A gear unit as its file describes it."""

@@ -12,7 +12,7 @@ from math import isfinite, nan
 from typing import NamedTuple
 
 from app.rexs.links import Groups, SpeedLink, fastened, joints, links, members_of
-from app.rexs.model import Component, LoadCase
+from app.rexs.model import NO_CASE, Component, LoadCase
 from app.rexs.reading import Reading
 from app.rexs.table import REVOLUTION_PER_MINUTE
 
@@ -100,8 +100,8 @@ class Train:
         self._parts = fastened(reading, self._shafts)
         self._joints = list(joints(reading)) if self._shafts else []
 
-    def flow(self, case: LoadCase | None = None) -> PowerFlow:
-        """Return the speeds and torques in a load case, or in the model itself if `case` is None."""
+    def flow(self, case: LoadCase = NO_CASE) -> PowerFlow:
+        """Return the speeds and torques in a load case, or in the model itself."""
         reading = self._reading.in_case(case)
         return _TrainState(reading, self._shafts, self._pairs, Groups(reading, self._parts, self._joints)).flow()
 
@@ -127,14 +127,12 @@ class _TrainState:
         self._through: dict[int, set[str]] = defaultdict(set)  # groups and stages behind links, with the reasons
 
     def flow(self) -> PowerFlow:
-        reading = self._reading
-        speeds = self._speeds(reading)
-        flow = PowerFlow(reading)
+        reading, flow, speeds = self._reading, PowerFlow(self._reading), self._speeds()
         for shaft in self._shafts:
             speed = speeds.get(self._group[shaft.id], nan)
             if isfinite(speed):
                 flow.speed[shaft.id] = speed * reading.sense(shaft)
-        forces = self._forces(speeds, reading)
+        forces = self._forces(speeds)
         for pair in self._pairs:
             force = forces.get(pair.stage.id, nan)
             first, second = (pair.teeth[place] * force * reading.sense(pair.shafts[place]) for place in (0, 1))
@@ -158,9 +156,9 @@ class _TrainState:
                     waiting.append(other)
         return stages
 
-    def _speeds(self, reading: Reading) -> dict[int, float]:
+    def _speeds(self) -> dict[int, float]:
         """Return the speeds [1/min] of the groups about the axis of the unit. Unknown speeds are left out."""
-        speeds: dict[int, float] = {}
+        reading, speeds = self._reading, dict[int, float]()
         stated = [(shaft, reading.number(shaft, "rotational_speed", "1/min")) for shaft in self._shafts]
         restated = {shaft.id for shaft, _ in stated if reading.says(shaft, "rotational_speed")}
         stated.sort(key=lambda pair: (pair[0].id not in restated, not reading.flag(pair[0], "defines_speed")))
@@ -189,9 +187,9 @@ class _TrainState:
                 self._through[other] |= self._through[group] | ({mesh.reason} if isinstance(mesh, SpeedLink) else set())
                 self._spread(other, -speed * mesh.teeth[place] / mesh.teeth[1 - place], speeds)
 
-    def _forces(self, speeds: dict[int, float], reading: Reading) -> dict[int, float]:
+    def _forces(self, speeds: dict[int, float]) -> dict[int, float]:
         """Return, for each mesh or link, the torque on a gear divided by the gear's number of teeth [N m]."""
-        torques, opened = self._loads(speeds, reading)
+        torques, opened = self._loads(speeds)
         forces: dict[int, float] = {}
         waiting = list(self._at) if torques else []
         while waiting:
@@ -206,7 +204,7 @@ class _TrainState:
             if force == 0.0 and 0.0 not in torques.values():
                 if isinstance(mesh, Pair):
                     message = "no torque passes through this stage by the loads of the file; it is taken as not known"
-                    reading.find("zero_torque", mesh.stage, None, message)
+                    self._reading.find("zero_torque", mesh.stage, None, message)
                 continue
             forces[mesh.stage.id] = force
             for other, _ in known:
@@ -215,7 +213,7 @@ class _TrainState:
             waiting.append(self._ends[mesh.stage.id][1 - place])
         return forces
 
-    def _loads(self, speeds: dict[int, float], reading: Reading) -> tuple[dict[int, float], set[int]]:
+    def _loads(self, speeds: dict[int, float]) -> tuple[dict[int, float], set[int]]:
         """Return the stated torque on each group [N m], and the set of the groups whose balance of torques is not used.
 
         The balance of a group is not used if the file does not state a torque that enters or leaves the unit there. If
@@ -226,11 +224,11 @@ class _TrainState:
         opened, leaving = set(self._unknown), set[int]()
         for shaft in self._shafts:
             group = self._group[shaft.id]
-            for load in reading.model.parts_of(shaft.id):
+            for load in self._reading.model.parts_of(shaft.id):
                 if load.type != "external_load":
                     continue
-                transmits = reading.flag(load, "transmits_torque")
-                torque = self._stated_torque(load, shaft, speeds.get(group), reading)
+                transmits = self._reading.flag(load, "transmits_torque")
+                torque = self._stated_torque(load, shaft, speeds.get(group))
                 if torque is not None:
                     torques[group] += torque
                     if torque * speeds.get(group, 0.0) < 0.0:
@@ -259,7 +257,7 @@ class _TrainState:
         parts += [shaft.id for stage in others for _, shaft in members_of(self._reading, stage)]
         return {groups.of(part) for part in parts}
 
-    def _stated_torque(self, load: Component, shaft: Component, speed: float | None, reading: Reading) -> float | None:
+    def _stated_torque(self, load: Component, shaft: Component, speed: float | None) -> float | None:
         """Return the torque [N m] of an external load about the axis of the unit, or None if the torque is not known.
 
         `shaft` carries the load, and `speed` [1/min] is the speed of the shaft about the axis of the unit. If the load
@@ -267,6 +265,7 @@ class _TrainState:
         no torque, this power takes precedence over the torque in the model. If `defines_torque` of the load is false,
         the result is None.
         """
+        reading = self._reading
         if reading.flag(load, "defines_torque") is False:
             return None
         torque = reading.number(load, "torque_around_u_axis", "Nm")

@@ -16,8 +16,9 @@ from pydantic import BaseModel
 
 from app.calculations import BY_PATH, CALCULATIONS
 from app.errors import InvalidBody
-from app.rexs.model import Attribute, Component, LoadCase, RexsUnit
+from app.rexs.model import NO_CASE, Attribute, Component, LoadCase, RexsUnit
 from app.rexs.table import APPLICATION_FACTOR, EXTERNAL, IGNORED, SCUFFING_FACTOR, Row, convert
+from app.schema.fields import is_below, nested
 from app.schema.quantities import Output
 from app.schema.reading import validated
 
@@ -51,13 +52,6 @@ class ShaftAxis(NamedTuple):
         along = self.along(other.origin)
         across = (a - b - along * u for a, b, u in zip(other.origin, self.origin, self.direction, strict=True))
         return sqrt(sum(part * part for part in across))
-
-
-class FileNumber(NamedTuple):
-    """The number in an attribute of the file, converted to the requested unit, and the name of the attribute."""
-
-    value: float
-    attribute: str
 
 
 class Fault(BaseModel, frozen=True):
@@ -104,12 +98,12 @@ class Reading:
     """
 
     model: RexsUnit
-    case: LoadCase | None = None
+    case: LoadCase = NO_CASE
     findings: dict[Fault, None] = field(default_factory=dict)
     used: set[tuple[int, str]] = field(default_factory=set)
     used_of_case: set[tuple[int, str]] = field(default_factory=set)
 
-    def in_case(self, case: LoadCase | None) -> "Reading":
+    def in_case(self, case: LoadCase) -> "Reading":
         """Return a reader in which the values of a load case replace the values of the model."""
         reading = copy(self)  # the copy keeps the cached directions of the shafts
         reading.case, reading.used_of_case = case, set()
@@ -117,39 +111,35 @@ class Reading:
 
     def says(self, component: Component, name: str) -> bool:
         """Return True if the load case states an attribute, False if the attribute can only come from the model."""
-        return self.case is not None and name in self.case.attributes.get(component.id, {})
+        return name in self.case.attributes.get(component.id, {})
 
     def find(self, code: str, component: Component | None, attribute: str | None, message: str) -> None:
         """Record a fault as a finding. A fault that is already recorded is not recorded again."""
         id_ = component.id if component else None
-        if (
-            component is not None
-            and attribute is not None
-            and self.case is not None
-            and self.says(component, attribute)
-        ):
+        if component is not None and attribute is not None and self.says(component, attribute):
             message = f"load case {self.case.name[:40]}: {message}"
         self.findings[Fault(code=code, component=id_, attribute=attribute, message=message)] = None
 
     def number(self, component: Component | None, wanted: Row | str, unit: str = "") -> float | None:
         """Return the number in an attribute of a component, or None if the file has no usable number."""
         names, unit = (wanted.attributes, wanted.unit) if isinstance(wanted, Row) else ((wanted,), unit)
-        first = self.first_of(component, names, unit)
-        return None if first is None else first.value
+        return self.first_of(component, names, unit)[0]
 
-    def first_of(self, component: Component | None, names: Iterable[str], unit: str) -> "FileNumber | None":
-        """Return the first number among the attributes `names` of a component, converted to `unit`.
+    def first_of(
+        self, component: Component | None, names: Iterable[str], unit: str
+    ) -> tuple[float, str] | tuple[None, None]:
+        """Return the first number among the attributes `names` of a component, converted to `unit`, and its attribute.
 
-        Values that are not numbers or cannot be converted are skipped. Return None if no value remains.
+        Values that are not numbers or cannot be converted are skipped.
         """
         if component is None:
-            return None
+            return None, None
         for name in names:
             attribute = self._attribute(component, name)
             value = None if attribute is None else self._in_unit(component, attribute, unit)
             if value is not None:
-                return FileNumber(value, name)
-        return None
+                return value, name
+        return None, None
 
     def text(self, component: Component, name: str) -> str:
         """Return the text of an attribute in lower case; empty if the file has no such attribute."""
@@ -230,17 +220,14 @@ class Reading:
 
     def ignored_of_case(self, elsewhere: Collection[int]) -> Iterator[Unused]:
         """Yield the attributes of the load case that have not been read."""
-        if (case := self.case) is None:
-            return
-        for id_, attributes in case.attributes.items():
+        for id_, attributes in self.case.attributes.items():
             type_ = self.model.components[id_].type if id_ in self.model.components else ""
             for name in attributes if id_ not in elsewhere else ():
                 if (id_, name) not in self.used_of_case:
-                    yield Unused(component=id_, attribute=name, reason=why_unused(type_, name), case=case.name)
+                    yield Unused(component=id_, attribute=name, reason=why_unused(type_, name), case=self.case.name)
 
     def _attribute(self, component: Component, name: str) -> Attribute | None:
-        of_case = {} if self.case is None else self.case.attributes.get(component.id, {})
-        if (attribute := of_case.get(name)) is not None:
+        if (attribute := self.case.attributes.get(component.id, {}).get(name)) is not None:
             self.used_of_case.add((component.id, name))
             return attribute
         attribute = component.attributes.get(name)
@@ -308,11 +295,10 @@ class Draft:
         `row` contains the path of the field, and the names of the attributes of `component` that may contain the
         number. `prefix` is put before the path of the field. Return the number, or None if there is no usable number.
         """
-        number = self.reading.first_of(component, row.attributes, row.unit)
-        if component is None or number is None:
-            return None
-        self.put(prefix + row.field, number.value, component, number.attribute)
-        return number.value
+        value, attribute = self.reading.first_of(component, row.attributes, row.unit)
+        if component is not None and value is not None:
+            self.put(prefix + row.field, value, component, attribute)
+        return value
 
     def request(self, endpoint: str, paths: Iterable[str]) -> dict[str, Any]:
         """Return a request for an endpoint, made from those fields of the draft that are in `paths`.
@@ -329,7 +315,7 @@ class Draft:
         own = {ours: theirs for ours, theirs in places.items() if ours in self.fields}
         model = BY_PATH[endpoint].request
         while True:
-            request = _nested({theirs: rounded(self.fields[ours]) for ours, theirs in own.items()})
+            request = nested({theirs: rounded(self.fields[ours]) for ours, theirs in own.items()})
             try:
                 validated(model, request)
             except InvalidBody as error:
@@ -339,9 +325,9 @@ class Draft:
             accepted = len(own)
             for fault in faults:
                 at = fault.pointer.strip("/").replace("/", ".")
-                if any(_within(path, at) or _within(at, path) for path in self.missing):
+                if any(is_below(path, at) or is_below(at, path) for path in self.missing):
                     continue  # already recorded as missing
-                ours = next((path for path, theirs in own.items() if _within(at, theirs)), None)
+                ours = next((path for path, theirs in own.items() if is_below(at, theirs)), None)
                 if ours is None:
                     back = next((path for path, theirs in places.items() if theirs == at), at)
                     self.lacks(back, None, None, fault.message)
@@ -370,19 +356,3 @@ def rounded(value: Any) -> Any:
 def why_unused(type_: str, name: str) -> str:
     """Return the reason why an attribute of a component type is not used."""
     return next(why for types, names, why in IGNORED if re.fullmatch(types, type_) and re.search(names, name))
-
-
-def _within(path: str, section: str) -> bool:
-    return path == section or path.startswith(section + ".")
-
-
-def _nested(fields: dict[str, Any]) -> dict[str, Any]:
-    """Convert fields with dotted paths into nested sections."""
-    request: dict[str, Any] = {}
-    for path, value in fields.items():
-        *sections, name = path.split(".")
-        here = request
-        for section in sections:
-            here = here.setdefault(section, {})
-        here[name] = value
-    return request

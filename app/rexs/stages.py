@@ -154,6 +154,11 @@ class StageDraft(Draft):
         flanks = {side: next(self.reading.model.related(*relation, side), None) for side in ("left", "right")}
         return {side: flank for side, flank in flanks.items() if flank is not None}
 
+    @property
+    def both_flanks(self) -> list[Component]:
+        """The flanks of both gears, those of the pinion first."""
+        return [flank for place in (0, 1) for flank in self.flanks(place).values()]
+
     def gear_data(self, place: int) -> Iterator[Component]:
         """Yield the components that hold data of the pinion (0) or the wheel (1) in this stage."""
         return _gear_data(self.reading, self.pair, self.gears[place])
@@ -275,11 +280,8 @@ class StageDraft(Draft):
         cosine = cos(radians(self.fields.get(table.HELIX_ANGLE.field, 0.0)))
         modules = self.values_of(self.gears, table.TRANSVERSE_MODULE)
         if modules:
-            self.note(
-                table.MODULE.field,
-                modules[0][0] * cosine,
-                "computed as the transverse module times the cosine of the helix angle",
-            )
+            reason = "computed as the transverse module times the cosine of the helix angle"
+            self.note(table.MODULE.field, modules[0][0] * cosine, reason)
         return [(value * cosine, gear) for value, gear in modules]
 
     def _helix(self) -> None:
@@ -305,9 +307,8 @@ class StageDraft(Draft):
         base = self.reading.number(gear, table.BASE_HELIX_ANGLE) if stated is None else None
         if base is None:
             return stated
-        flanks = [flank for place in (0, 1) for flank in self.flanks(place).values()]
         normal, transverse = (
-            next((value for value, _ in self.values_of(flanks, row)), None)
+            next((value for value, _ in self.values_of(self.both_flanks, row)), None)
             for row in (table.PRESSURE_ANGLE, table.TRANSVERSE_PRESSURE_ANGLE)
         )
         if normal is None and transverse is not None and abs(transverse) < 90.0 > abs(base):
@@ -349,8 +350,7 @@ class StageDraft(Draft):
 
     def _from_transverse_angle(self) -> None:
         row = table.PRESSURE_ANGLE
-        flanks = [flank for place in (0, 1) for flank in self.flanks(place).values()]
-        angles = self.values_of(flanks, table.TRANSVERSE_PRESSURE_ANGLE)
+        angles = self.values_of(self.both_flanks, table.TRANSVERSE_PRESSURE_ANGLE)
         if not angles:
             self.assume(row.field, NORMAL_ANGLE, "the file has no pressure angle; the value of ISO 53 is used")
             return
@@ -368,11 +368,8 @@ class StageDraft(Draft):
         if flank is not None and length is not None and module:
             self.put(path, length / module, flank, "addendum_modification")
         elif (finished := self._of_flanks(place, table.FINISHED_SHIFT, path)) is not None:
-            self.note(
-                path,
-                finished,
-                "the profile shift after finishing is used, because the file has no nominal profile shift",
-            )
+            reason = "the profile shift after finishing is used, because the file has no nominal profile shift"
+            self.note(path, finished, reason)
         else:
             self.assume(path, 0.0, "the file has no profile shift")
 
@@ -397,11 +394,10 @@ class StageDraft(Draft):
         path, module = f"{prefix}addendum", self.fields.get(table.MODULE.field)
         if not self._from_diameter(place, table.TIP_DIAMETER):
             length = self.reading.number(self.gears[place], table.BASIC_ADDENDUM_LENGTH)
-            if self._of_flanks(place, table.BASIC_ADDENDUM, path) is not None:
-                pass
-            elif length is not None and module:
+            is_stated = self._of_flanks(place, table.BASIC_ADDENDUM, path) is not None
+            if not is_stated and length is not None and module:
                 self.put(path, length / module, self.gears[place], table.BASIC_ADDENDUM_LENGTH.name)
-            else:
+            elif not is_stated:
                 self._assume_rack(place, "addendum")
         dedendum = self._of_tool(tool, table.TOOL_ADDENDUM, table.TOOL_ADDENDUM_LENGTH)
         if tool is not None and dedendum is not None:
@@ -452,20 +448,14 @@ class StageDraft(Draft):
                 radii.append((radius, tool))
         path = "gears.rack_tip_radius"
         if not radii:
-            self.assume(
-                path,
-                ISO_53_A["rack_tip_radius"],
-                "the file gives no tip radius of a tool; the value of ISO 53, profile A, is used",
-            )
+            reason = "the file gives no tip radius of a tool; the value of ISO 53, profile A, is used"
+            self.assume(path, ISO_53_A["rack_tip_radius"], reason)
             return
         smallest, tool = min(radii, key=lambda radius_and_tool: radius_and_tool[0])
         self.put(path, smallest, tool, table.TOOL_TIP_RADIUS.attributes[-1])
         if abs(radii[0][0] - radii[-1][0]) > SAME:
-            self.note(
-                path,
-                smallest,
-                "the tools of the two gears have different tip radii; the smaller radius is used for both gears",
-            )
+            reason = "the tools of the two gears have different tip radii; the smaller radius is used for both gears"
+            self.note(path, smallest, reason)
 
     def _backlash(self) -> None:
         """Fill in the part of the normal backlash that results from the thinning of the teeth."""
@@ -582,11 +572,8 @@ class StageDraft(Draft):
             if row.field in load and (reasons := self.flow.through.get(self.pair.stage.id)):
                 self.note(row.field, load[row.field], "; ".join(sorted(reasons)))
         if self.driver is None:
-            self.note(
-                "gears.pinion",
-                self.gears[0].id,
-                "it is not known which gear drives; the smaller gear is taken as the driver",
-            )
+            reason = "it is not known which gear drives; the smaller gear is taken as the driver"
+            self.note("gears.pinion", self.gears[0].id, reason)
 
 
 class Involute:
@@ -617,8 +604,6 @@ class Involute:
     def root_fault(self, diameter: float) -> str | None:
         """Return the reason why a root diameter [mm] is impossible, or None if the diameter is possible."""
         low, high = self.reference_diameter - 6.0 * self.module, self.reference_diameter + 2.0 * self.module
-        return (
-            None
-            if max(low, 0.0) < diameter < high
-            else f"is {diameter:.6g} mm, which is not a possible root diameter of these teeth"
-        )
+        if max(low, 0.0) < diameter < high:
+            return None
+        return f"is {diameter:.6g} mm, which is not a possible root diameter of these teeth"

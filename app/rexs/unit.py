@@ -12,9 +12,9 @@ from pydantic import BaseModel
 from app.rexs import table
 from app.rexs.drive_train import add_drive_train, bearings_of
 from app.rexs.helices import helices_of, joined, with_twins
-from app.rexs.lubrication import Lubrication
+from app.rexs.lubrication import add_lubrication
 from app.rexs.model import Component, RexsUnit
-from app.rexs.modifications import Modifications, modifications_of
+from app.rexs.modifications import add_modifications, modifications_of
 from app.rexs.power import Pair, PowerFlow, Train
 from app.rexs.reading import READABLE, SCUFFING, TRAIN, Reading, rounded
 from app.rexs.stages import SPEED, TORQUE, StageDraft, pairs
@@ -90,14 +90,11 @@ def _stage(pair: Pair, base: PowerFlow, flows: list[PowerFlow]) -> tuple[dict[st
     """Return the part of the answer that describes a stage, and the draft from which this part is made."""
     flow = next((flow for flow in (base, *flows) if flow.knows(pair)), base)
     stage = _draft_of(pair, flow)
-    if (case := flow.reading.case) is not None:
+    if flow is not base:
+        reason = f"the value is taken from the load case {flow.reading.case.name}, because the model states no value"
         for path in (TORQUE, SPEED, table.OIL_TEMPERATURE.field):
             if path in stage.fields:
-                stage.note(
-                    path,
-                    stage.fields[path],
-                    f"the value is taken from the load case {case.name}, because the model states no value",
-                )
+                stage.note(path, stage.fields[path], reason)
     # The fields of oil and temperatures come last.
     paths = sorted(
         {**stage.fields, **stage.missing}, key=lambda path: path.partition(".")[0] in {"lubricant", "temperatures"}
@@ -128,8 +125,8 @@ def _stage(pair: Pair, base: PowerFlow, flows: list[PowerFlow]) -> tuple[dict[st
 def _draft_of(pair: Pair, flow: PowerFlow, pinion: int | None = None) -> StageDraft:
     stage = StageDraft(pair, flow, pinion)
     stage.fill()
-    Lubrication(stage).fill()
-    Modifications(stage).fill()
+    add_lubrication(stage)
+    add_modifications(stage)
     return stage if pair.twin is None else joined(stage, _draft_of(pair.twin, flow, stage.order[0]))
 
 
@@ -180,8 +177,6 @@ def _cases(stage: StageDraft, pair: Pair, flows: list[PowerFlow], *, is_train: b
     shares, reason = _shares([flow.reading for flow in flows])
     for flow, share in zip(flows, shares, strict=True):
         case = flow.reading.case
-        if case is None:
-            continue
         directions = {flow.direction(pair), stage.flow.direction(pair)} - {None}
         if len(directions) > 1:
             message = (
@@ -231,22 +226,17 @@ def _shares(readings: list[Reading]) -> tuple[list[float], str | None]:
     if not readings:
         return [], None
     unit = readings[0].model.first("gear_unit")
-    cases = [reading.case for reading in readings if reading.case is not None]
+    cases = (reading.case for reading in readings)
     stated = {name for case in cases for attributes in case.attributes.values() for name in attributes}
     own = sorted(name for name in stated if name.endswith("_fraction") and name not in SHARES)
     for name, size in (SHARES | dict.fromkeys(own, "")).items() if unit else ():
         values = [reading.number(unit, name, size) for reading in readings]
         valid = [value for value in values if value is not None and value >= 0.0]
         if len(valid) == len(values) and sum(valid) > 0.0:
-            reason = (
-                f"the shares are taken from the attribute {name}, which is not part of the standard"
-                if name in own
-                else None
-            )
-            return [value / sum(valid) for value in valid], reason
-    return [1.0 / len(readings)] * len(
-        readings
-    ), "the file does not state the shares of the load cases; equal shares are used"
+            reason = f"the shares are taken from the attribute {name}, which is not part of the standard"
+            return [value / sum(valid) for value in valid], reason if name in own else None
+    equal = [1.0 / len(readings)] * len(readings)
+    return equal, "the file does not state the shares of the load cases; equal shares are used"
 
 
 def _check_relations(reading: Reading) -> None:

@@ -16,8 +16,8 @@ from typing import Any, Literal, NamedTuple, get_args, get_origin
 from pydantic import BaseModel
 
 from app.schema.model import Documented, Member, members
-from app.schema.quantities import Output, View
-from solvers.quantity import Detail, Quantity
+from app.schema.quantities import Input, Output, View
+from solvers.quantity import Detail
 
 Kind = Literal["number", "integer", "boolean", "text", "other"]
 _KINDS: dict[Any, Kind] = {float: "number", int: "integer", bool: "boolean", str: "text"}
@@ -39,9 +39,8 @@ class Leaf:
 
     path: str
     title: str
-    declared: Quantity
+    declared: Input | Output
     view: View
-    description: str
     unit: str | None
     kind: Kind
     dimensions: int
@@ -209,6 +208,26 @@ def value_at(content: Any, path: str) -> Any:
     return content
 
 
+def nested(values: dict[str, Any]) -> dict[str, Any]:
+    """Return values by dotted paths as nested sections; numbers in a path become the items of a list."""
+    content: dict[str, Any] = {}
+    for path, value in values.items():
+        *sections, name = path.split(".")
+        here = content
+        for section in sections:
+            here = here.setdefault(section, {})
+        here[name] = value
+    listed: dict[str, Any] = _with_lists(content)
+    return listed
+
+
+def _with_lists(content: Any) -> Any:
+    if not isinstance(content, dict):
+        return content
+    inner = {name: _with_lists(value) for name, value in content.items()}
+    return [*inner.values()] if inner and all(map(str.isdecimal, inner)) else inner
+
+
 @cache
 def _leaf_of(model: type[Documented]) -> dict[str, Leaf]:
     """Return all leaves. The keys are the paths of the leaves."""
@@ -279,7 +298,6 @@ def _leaf(place: Place, title: str) -> Leaf:
         title=title,
         declared=meaning,
         view=meaning if isinstance(meaning, Output) else View(),
-        description=meaning.description,
         unit=member.unit.symbol if member.unit else None,
         kind=next((_KINDS[kind] for kind in member.kinds if kind in _KINDS), "text" if options else "other"),
         dimensions=member.dimensions,

@@ -5,13 +5,12 @@ at which an error of the body is shown.
 """
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from itertools import groupby
 from typing import Any, NamedTuple
 
 from app.calculations import Calculation
 from app.pages.typed import number_of, text_of
 from app.pages.typesetting import shown
-from app.schema.fields import Leaf, leaves, tree, value_at
+from app.schema.fields import Leaf, leaves, nested, tree, value_at
 from app.studies.fields import NUMBERS, indexed
 
 Options = tuple[tuple[str, str], ...]
@@ -49,28 +48,9 @@ class Control(NamedTuple):
 
 def body_of(controls: Iterable[Control], typed: Mapping[str, str]) -> dict[str, Any]:
     """Return the parts of the body that the controls set."""
-    body: dict[str, Any] = {}
-    for control in controls:
-        if control.sets:
-            text = typed.get(control.name)
-            value = control.read(text) if text else control.default
-            if value is not None:
-                _put(body, control.path.split("."), value)
-    return body
-
-
-def _put(place: Any, parts: list[str], value: Any) -> None:
-    """Set a value at the end of a path through nested dictionaries and lists."""
-    for part, following in zip(parts, [*parts[1:], None], strict=True):
-        key: Any = int(part) if isinstance(place, list) else part
-        inner: Any = value if following is None else [] if following.isdecimal() else {}
-        if isinstance(place, list) and key == len(place):
-            place.append(inner)
-        elif following is None:
-            place[key] = value
-        elif not isinstance(place, list):
-            place.setdefault(key, inner)
-        place = place[key]
+    given = ((control, typed.get(control.name)) for control in controls if control.sets)
+    values = {control.path: control.read(text) if text else control.default for control, text in given}
+    return nested({path: value for path, value in values.items() if value is not None})
 
 
 def texts_of(controls: Iterable[Control], body: Any) -> dict[str, str]:
@@ -114,15 +94,6 @@ class Menu(NamedTuple):
     shown: str
     groups: list[tuple[str, list[Choice]]]
     fault: str | None
-
-
-def menu(name: str, label: str, empty: str, choices: list[Choice], chosen: str, fault: str | None) -> Menu:
-    """Return a menu of these choices. If the chosen entry is not among the choices, add the entry."""
-    labels = {choice.path: choice.label for choice in choices}
-    groups = [(group, list(items)) for group, items in groupby(choices, key=lambda choice: choice.group)]
-    if chosen and chosen not in labels:
-        groups.append(("asked for", [Choice(chosen, chosen, "")]))
-    return Menu(name, label, empty, chosen, labels.get(chosen, chosen) or empty, groups, fault)
 
 
 def field_choices(calculation: Calculation, case: dict[str, Any], *, texts: bool) -> list[Choice]:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from http import HTTPStatus
+from itertools import groupby
 from typing import Any, NamedTuple
 
 from app.calculations import Calculation
@@ -19,7 +20,7 @@ from app.pages.charts import embedded
 from app.pages.form import FieldView
 from app.pages.query import LONGEST_QUERY, link, pairs_of, written_of
 from app.pages.results import NOT_RESULTS
-from app.pages.studies.controls import Choice, Control, Menu, Options, body_of, control_at, menu
+from app.pages.studies.controls import Choice, Control, Menu, Options, body_of, control_at
 from app.pages.study_kinds import CASES, StudyLink, control_names
 from app.pages.study_links import Starter, StudyExample
 from app.pages.templating import examples_of, rendered
@@ -198,8 +199,12 @@ class StudyPage(ABC):
 
     def menu(self, name: str, label: str, empty: str, choices: list[Choice]) -> Menu:
         """Return a menu of the given choices. If the query names another choice, the menu also has this choice."""
-        chosen = self.views.get(name, "")
-        return menu(name, label, empty, choices, chosen, dict(self.faults).get(name))
+        chosen, labels = self.views.get(name, ""), {choice.path: choice.label for choice in choices}
+        groups = [(group, list(items)) for group, items in groupby(choices, key=lambda choice: choice.group)]
+        if chosen and chosen not in labels:
+            groups.append(("asked for", [Choice(chosen, chosen, "")]))
+        shown = labels.get(chosen, chosen) or empty
+        return Menu(name, label, empty, chosen, shown, groups, dict(self.faults).get(name))
 
     def field(self, name: str, label: str, usual: Scalar = None, unit: str = "", options: Options = ()) -> FieldView:
         """Return a form field with the typed text, and with the usual value as placeholder."""
@@ -366,11 +371,6 @@ def file(page: StudyPage, lines: list[Line], name: str, image_format: Format) ->
     if name not in result.figures:
         return "; ".join([f"This study has the figures {', '.join(result.figures) or 'none'}", *result.remarks])
     return written(result.figures[name], image_format, page.asked.theme or "light")
-
-
-def report_head(page: StudyPage) -> bytes:
-    """Return the beginning of a document that first shows the progress of a study, and then the report."""
-    return rendered("report_progress.html", page.asked.root, page=page).encode()
 
 
 def report_progress(page: StudyPage, done: int, *, has_ended: bool = False, problem: str = "") -> bytes:

@@ -9,7 +9,8 @@ from contextlib import aclosing, suppress
 from typing import Any
 
 from app.errors import DeadlineExceeded, WorkerLost
-from app.pages.studies.page import Opened, StudyPage, drawn, report, report_head, report_progress
+from app.pages.studies.page import Opened, StudyPage, drawn, report, report_progress
+from app.pages.templating import rendered
 from app.studies.runner import Clock, Line, Lines, Pool, twice_if_lost
 
 FIRST_FRAME_S = 0.3  # time until a page shows its first points
@@ -42,7 +43,7 @@ async def report_pieces(
     pool: Callable[[], Pool], page: StudyPage, host: str, lines: Lines, clock: Clock
 ) -> AsyncGenerator[bytes, None]:
     """Yield the parts of a document that first shows the progress of a study, and finally the report of the study."""
-    yield report_head(page) + report_progress(page, 0)
+    yield rendered("report_progress.html", page.asked.root, page=page).encode() + report_progress(page, 0)
     received, due = list[Line](), FIRST_FRAME_S
     async with aclosing(lines):
         async for group in lines:
