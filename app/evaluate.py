@@ -12,7 +12,6 @@ from app.calculations import BY_PATH
 from app.errors import Unprocessable
 from app.examples import examples
 from app.figures.data import ThemeName
-from app.figures.declaration import Declaration
 from app.models.card import Calculation
 from app.models.kernels import KernelGroup
 from app.schema.answers import MODEL_VERSION, Response, shown
@@ -84,10 +83,13 @@ def answer_of(path: str, request: Request) -> bytes:
 def figure_of(name: str, image_format: figures.Format, theme: ThemeName, path: str, request: Request) -> bytes:
     """Solve a request to the endpoint `path` and return the figure `name` of the result.
 
-    This function runs in a worker process.
+    This function runs in a worker process. Raises the errors of `evaluate`, and NoFigure if this figure cannot be drawn
+    from the result.
     """
     declaration = next(figure for figure in BY_PATH[path].figures if figure.name == name)
-    return draw_figure(BY_PATH[path], declaration, request, image_format, theme)
+    summary = request.model_copy(update={"detail": "summary"})
+    figure = declaration.figure(summary, evaluate(BY_PATH[path], summary))
+    return figures.written(figure, image_format, theme)
 
 
 def warm(group: KernelGroup) -> None:
@@ -111,22 +113,6 @@ def json_answer(calculation: Calculation, request: Request) -> bytes:
 def written(response: Response) -> bytes:
     """Return a response as JSON. Fields that are not set are left out."""
     return response.model_dump_json(exclude_unset=True).encode()
-
-
-def draw_figure(
-    calculation: Calculation,
-    declaration: Declaration,
-    request: Request,
-    image_format: figures.Format,
-    theme: ThemeName,
-) -> bytes:
-    """Solve a request and return a figure of the result.
-
-    Raises the errors of `evaluate`. Raises NoFigure if this figure cannot be drawn from the result.
-    """
-    summary = request.model_copy(update={"detail": "summary"})
-    figure = declaration.figure(summary, evaluate(calculation, summary))
-    return figures.written(figure, image_format, theme)
 
 
 def evaluate(calculation: Calculation, request: Request) -> Response:

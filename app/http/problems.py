@@ -11,7 +11,7 @@ from pydantic import BaseModel
 from pydantic.json_schema import models_json_schema
 from starlette.exceptions import HTTPException
 
-from app.errors import PROBLEMS, Fault, InvalidBody, Kind, Unprocessable, faults_of, kind_of, pointer, sentence
+from app.errors import Fault, InvalidBody, Kind, Unprocessable, faults_of, kind_of, pointer, sentence
 from app.schema.quantities import Output
 from app.schema.reading import MOST_FAULTS
 
@@ -58,8 +58,11 @@ def documented(*statuses: int) -> dict[int | str, dict[str, Any]]:
 
 
 def install(app: FastAPI) -> None:
-    """Answer all exceptions with problem documents, and add the schema of these documents to the OpenAPI document."""
-    for kind in (RequestValidationError, InvalidBody, Unprocessable, HTTPException, *PROBLEMS):
+    """Answer refused input with problem documents, and add the schema of these documents to the OpenAPI document.
+
+    The other exceptions have handlers of their own (`app.http.routes.pages.failed`), because they may become pages.
+    """
+    for kind in (RequestValidationError, InvalidBody, Unprocessable):
         app.add_exception_handler(kind, answer)
     openapi = app.openapi
 

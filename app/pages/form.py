@@ -379,8 +379,9 @@ def _help(leaf: Leaf, *, assumed: bool) -> tuple[str, ...]:
     ends = {"ge": "from", "gt": "above", "le": "to", "lt": "below"}
     bounds = [f"{ends[key]} {text_of(float(bound))}" for key, bound in leaf.declared.bounds.items()]
     fellows = (words(split_unit(fellow.rpartition(".")[2])[0]) for fellow in leaf.exclusive)
+    meaning = leaf.declared.description
     lines = [
-        f"{leaf.description[0].upper()}{leaf.description[1:]}.",
+        f"{meaning[0].upper()}{meaning[1:]}.",
         " ".join(["Permissible:", *bounds, leaf.unit or ""]).rstrip() + "." if bounds else "",
         f"{'Assumed' if assumed else 'Our default'}: {leaf.declared.assumed}." if leaf.declared.assumed else "",
         f"Instead of: {', '.join(fellows)}." if leaf.exclusive else "",

@@ -105,9 +105,8 @@ def groups(response: Documented, before: Documented | None = None) -> dict[str, 
         if ITEM in leaf.path and leaf.detail != "summary":  # a long list, which a figure shows
             continue
         if leaf.is_scalar or (leaf.declared.index and not leaf.axes and leaf.dimensions == 1):
-            row = replace(
-                _row(leaf, path, value, old.get(path), label=leaf.declared.title), remark=remarks.get(path, "")
-            )
+            row = row_of(leaf, path, value, old.get(path))
+            row = replace(row, label=leaf.declared.title, remark=remarks.get(path, ""))
             shared, found = _of_helix.subn("", path)
             rows = tables.setdefault(_one_helix.sub(BOTH, group) if found else group or "result", [])
             if found and shared in beside:
@@ -136,7 +135,7 @@ def differences(request: type[Documented], response: Response, before: Response)
     here, there = flattened(response.inputs), flattened(before.inputs)
     now, old = resolved(response), resolved(before)
     return [
-        _row(leaf, path, now.get(path), old.get(path), label=leaf.title)
+        row_of(leaf, path, now.get(path), old.get(path))
         for path in here | there
         if here.get(path) != there.get(path) and (leaf := leaf_at(request, path))
     ]
@@ -145,30 +144,26 @@ def differences(request: type[Documented], response: Response, before: Response)
 def assumptions(request: type[Documented], response: Response) -> list[ResultRow]:
     """Return the inputs for which the answer uses a default of this project, with the reason for each default."""
     return [
-        replace(_row(leaf, assumption.field, assumption.value, label=leaf.title), remark=assumption.reason)
+        replace(row_of(leaf, assumption.field, assumption.value), remark=assumption.reason)
         for assumption in response.assumptions
         if (leaf := leaf_at(request, assumption.field))
     ]
 
 
-def _row(leaf: Leaf, path: str, now: Any, before: Any = None, *, label: str, digits: int = 5) -> ResultRow:
+def row_of(leaf: Leaf, path: str, now: Any = None, before: Any = None, *, digits: int = 5) -> ResultRow:
+    """Return the row of a table for a value, and for the value of the variant `before`."""
     unit = leaf.unit or ""
     if leaf.view.percent:
         now, before, unit = (None if now is None else 100.0 * now, None if before is None else 100.0 * before, "%")
     unit_of_value = unit if now is not None or before is not None else ""
     items, old = (_named(leaf, texts_of(value, digits)) for value in (now, before))
-    return ResultRow(leaf, label, path, items, unit_of_value, old, _change(now, before, unit))
+    return ResultRow(leaf, leaf.title, path, items, unit_of_value, old, _change(now, before, unit))
 
 
 def _named(leaf: Leaf, items: tuple[str, ...]) -> tuple[str, ...]:
     """Put names before the items of a field, such as "x" before the first component of a vector."""
     names = (leaf.declared.index or "").split(", ")
     return tuple(map(" ".join, zip(names, items, strict=True))) if len(names) == len(items) > 1 else items
-
-
-def row_of(leaf: Leaf, path: str, value: Any = None, digits: int = DIGITS) -> ResultRow:
-    """Return the row of a table for a single value."""
-    return _row(leaf, path, value, label=leaf.title, digits=digits)
 
 
 def texts_of(value: Any, digits: int, of_items: int = 4) -> tuple[str, ...]:
@@ -236,7 +231,7 @@ def cards(response: Documented, inputs: dict[str, Any], before: Documented | Non
         if level == "good" and doubtful:
             level, verdict = "near", f"{verdict}; see the warnings"
         value = values.get(leaf.path)
-        row = _row(leaf, leaf.path, value, old.get(leaf.path), label=leaf.title, digits=DIGITS)
+        row = row_of(leaf, leaf.path, value, old.get(leaf.path), digits=DIGITS)
         row = replace(row, items=_with_band(row.items, leaf, values), before=_with_band(row.before, leaf, old))
         remark = ": ".join(part for part in (belongs.get(leaf.path, ""), verdict) if part)
         rows.append(replace(row, unit="" if value is None else row.unit, level=level, remark=remark))
@@ -280,7 +275,7 @@ def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[
     """Return the level and the words of the verdict on a headline number."""
     view, value = leaf.view, values.get(leaf.path)
     if value is None:
-        reason = leaf.description.partition("null ")[2]  # the reason as the schema states it
+        reason = leaf.declared.description.partition("null ")[2]  # the reason as the schema states it
         why = f"no value {reason}" if reason else "no value; the warnings say why"
         return "plain", "" if view.needs else why
     path = view.verdict or ""

@@ -274,11 +274,7 @@ def record_in(hint: Any) -> Any:
 def _in_si(value: Any, unit: Unit | None, record: Any) -> Any:
     """Convert a value of a request into SI. A section is converted into the dataclass `record`."""
     inside = None if record is None else lambda section: section.si(record)
-    return converted(value, unit.to_si if unit else _unchanged, inside)
-
-
-def _unchanged(value: Any) -> Any:
-    return value
+    return converted(value, unit.to_si if unit else lambda number: number, inside)
 
 
 def _with_choices(document: dict[str, Any], section: type[Any]) -> None:

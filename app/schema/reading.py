@@ -161,8 +161,14 @@ def _unknown(name: str, sections: Models) -> str:
     """Return the message about an unknown field. If a known field has a similar name, suggest this name."""
     if not _NAME.fullmatch(name):
         return "unknown field"
-    near = get_close_matches(name, [field for section in sections for field in section.model_fields], n=1, cutoff=0.6)
-    return f"unknown field {name}" + (f"; did you mean {near[0]}?" if near else "")
+    known = (field for section in sections for field in section.model_fields)
+    return f"unknown field {name}{did_you_mean(name, known)}"
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """Return a question that suggests the known name most similar to `name`; empty if none is similar."""
+    near = get_close_matches(name, list(known), n=1)
+    return f"; did you mean {near[0]}?" if near else ""
 
 
 def _no_number(value: Any) -> str:

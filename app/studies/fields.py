@@ -1,14 +1,13 @@
 """Access to single values of requests and answers. A study names a single value by the dotted path of its field."""
 
 import operator
-from collections.abc import Iterable
 from dataclasses import replace
-from difflib import get_close_matches
 from typing import Any
 
 from app.errors import Unprocessable
-from app.schema.fields import ITEM, Leaf, leaf_at, leaves, value_at
+from app.schema.fields import ITEM, Leaf, leaf_at, leaves, pattern_of, value_at
 from app.schema.model import Documented
+from app.schema.reading import did_you_mean
 from app.studies.requests import Scalar
 from solvers.quantity import allowed
 
@@ -28,13 +27,9 @@ def scalar_at(model: type[Documented], path: str, place: str, unknown: str) -> L
         leaf = replace(listed, dimensions=0, nullable=False)
     if leaf is None:
         paths = [other.path for other in leaves(model)]
-        section = ".".join(ITEM if part.isdecimal() else part for part in path.split("."))
-        if any(name.startswith(f"{section}.") for name in paths):
-            raise Unprocessable(
-                "not_scalar",
-                f"{path} is a section and not a single value; name one of the fields in the section",
-                place,
-            )
+        if any(name.startswith(f"{pattern_of(path)}.") for name in paths):
+            message = f"{path} is a section and not a single value; name one of the fields in the section"
+            raise Unprocessable("not_scalar", message, place)
         raise Unprocessable(unknown, f"there is no {path}{did_you_mean(path, paths)}", place)
     if leaf.kind == "other":
         raise Unprocessable("not_scalar", f"{path} is not a single value", place)
@@ -54,15 +49,6 @@ def not_a_number(leaf: Leaf) -> str | None:
         return None
     holds = "either true or false" if leaf.kind == "boolean" else "text"
     return f"{leaf.path} is {holds}, not a number"
-
-
-def did_you_mean(path: str, known: Iterable[str]) -> str:
-    """Return a question that suggests the known path most similar to `path`.
-
-    The question is empty if no known path is similar.
-    """
-    near = get_close_matches(path, list(known), n=1)
-    return f"; did you mean {near[0]}?" if near else ""
 
 
 def fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:

@@ -13,8 +13,7 @@ from typing import Any, Literal, NamedTuple
 from app.calculations import BY_PATH, Calculation
 from app.errors import PROBLEMS, InvalidBody, Unprocessable, faults_of
 from app.evaluate import evaluate, refuse_endless
-from app.models.card import Pump
-from app.schema.fields import ITEM, Leaf, headlines, value_at
+from app.schema.fields import Leaf, headlines, pattern_of, value_at
 from app.schema.model import Request
 from app.schema.reading import validated
 from app.studies.fields import clear_excluded, scalar_at, set_value
@@ -139,8 +138,7 @@ def check_distinct(paths: Sequence[str], place: str, *, numbered: bool = False) 
 def needs_film(endpoint: str, output: str) -> bool:
     """Return True if an output needs the thermal film. The film takes more time than all other parts of the answer."""
     of_the_film = BY_PATH[endpoint].words.of_the_film or ()
-    wanted = ".".join(ITEM if part.isdecimal() else part for part in output.removeprefix(COLD).split("."))
-    return "thermal_ehl" in output or wanted in of_the_film
+    return "thermal_ehl" in output or pattern_of(output.removeprefix(COLD)) in of_the_film
 
 
 def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[str]) -> dict[str, Any]:
@@ -222,11 +220,6 @@ def solve_chunk(question: Question, overrides: Sequence[Overrides]) -> Chunk:
     return Chunk(points, time.perf_counter() - started)
 
 
-def _assumed_flow(question: Question, pump: Pump) -> dict[str, Any]:
-    reason = "sized once, for the base request: one oil pump for all points"
-    return {"field": pump.flow, "value": question.gear_flow, "reason": reason}
-
-
 def solve_point(question: Question, overrides: Overrides) -> Point:
     """Solve the request of one point, and return the answer as a `Point`.
 
@@ -247,7 +240,10 @@ def solve_point(question: Question, overrides: Overrides) -> Point:
     except Exception:
         logger.exception("a point of a study failed")
         return question.failed("internal_error", "something went wrong in the service; the log has the cause")
-    flow = (_assumed_flow(question, calculation.pump),) if calculation.pump and with_flow is not request else ()
+    assumptions = [*map(dict, answer.assumptions)]
+    if calculation.pump and with_flow is not request:
+        reason = "sized once, for the base request: one oil pump for all points"
+        assumptions.append({"field": calculation.pump.flow, "value": question.gear_flow, "reason": reason})
     ranks: dict[str, Rank] = {}  # a code counts once at a point, also if it holds for both gears
     for warning in answer.warnings:
         ranks.setdefault(warning.code, warning.rank)
@@ -255,6 +251,6 @@ def solve_point(question: Question, overrides: Overrides) -> Point:
         answer.status,
         [value_at(answer, path) for path in question.outputs],
         [*ranks],
-        assumptions=(*map(dict, answer.assumptions), *flow),
+        assumptions=tuple(assumptions),
         ranks=tuple(ranks.values()),
     )

@@ -58,7 +58,7 @@ def test_every_leaf_says_what_it_is(model: type[Documented]) -> None:
     for leaf in leaves(model):
         _, unit = split_unit(leaf.path.rpartition(".")[2])
         assert leaf.title, leaf.path
-        assert leaf.description, leaf.path
+        assert leaf.declared.description, leaf.path
         assert leaf.unit or unit is None, leaf.path
         assert leaf.declared.symbol or leaf.unit is None, f"{leaf.path} has a unit and no symbol"
 
@@ -68,7 +68,7 @@ def test_schema_and_walk_agree(model: type[Documented]) -> None:
     for leaf in leaves(model):
         field = schema_of(model, leaf.path)
         assert leaf.title.startswith(field["title"]), leaf.path
-        assert field["description"] == leaf.description
+        assert field["description"] == leaf.declared.description
         assert field.get("x-unit") == leaf.unit
         assert field.get("x-symbol") == leaf.declared.symbol
         assert field.get("x-source") == leaf.declared.source

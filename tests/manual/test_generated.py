@@ -16,7 +16,7 @@ from pathlib import Path
 import pytest
 
 from app.calculations import CALCULATIONS
-from app.evaluate import draw_figure
+from app.evaluate import figure_of
 from app.examples import examples
 from app.main import app
 from app.manual import NAMES, chapters, file_of
@@ -199,9 +199,8 @@ def renew_figures() -> None:
     for name, shown in sorted({each for chapter in chapters().values() for each in figures_of(chapter)}):
         example = examples()[name]
         calculation = next(each for each in CALCULATIONS if each.path == example.endpoint)
-        declaration = next(each for each in calculation.figures if each.name == shown)
         request = calculation.request.model_validate(example.request)
-        (folder / f"{name}.{shown}.png").write_bytes(draw_figure(calculation, declaration, request, "png", "light"))
+        (folder / f"{name}.{shown}.png").write_bytes(figure_of(shown, "png", "light", calculation.path, request))
 
 
 if __name__ == "__main__":

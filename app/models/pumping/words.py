@@ -52,9 +52,9 @@ def verdicts(response: Any) -> dict[str, Verdict]:
     judged |= {f"{gear}_spaces.peak_pressure_ratio": _radial(response) for gear, _ in spaces}
     resolution = response.resolution
     if resolution.pumping_power > UNCERTAIN:
-        judged["total.pumping_power_w"] = _as_known(Verdict("plain", ""), resolution.pumping_power, "the power")
+        judged["total.pumping_power_w"] = _doubtful("the power", resolution.pumping_power)
     if (resolution.temperature_rise or 0.0) > UNCERTAIN:
-        doubt = _as_known(Verdict("plain", ""), resolution.temperature_rise, "the temperature rise")
+        doubt = _doubtful("the temperature rise", resolution.temperature_rise)
         judged |= {f"{gear}_spaces.max_temperature_rise_k": doubt for gear in _spaces(response)}
     return judged
 
@@ -83,12 +83,8 @@ def _radial(response: Any) -> Verdict:
     return Verdict({"choked": "bad", "doubtful": "near"}.get(word, "good"), f"radial clearances {word}")
 
 
-def _as_known(verdict: Verdict, uncertainty: float, name: str) -> Verdict:
-    """Return the verdict, marked as doubtful if the number behind the verdict is uncertain."""
-    if uncertainty <= UNCERTAIN:
-        return verdict
-    doubt = f"doubtful: {name} is uncertain by {percent(uncertainty)}"
-    return Verdict("near", f"{verdict.text}; {doubt}" if verdict.text else doubt)
+def _doubtful(name: str, uncertainty: float) -> Verdict:
+    return Verdict("near", f"doubtful: {name} is uncertain by {percent(uncertainty)}")
 
 
 def conclusion(response: Any) -> str:

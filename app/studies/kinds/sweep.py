@@ -14,9 +14,10 @@ from pydantic import Field
 from app.errors import Unprocessable
 from app.schema.fields import Leaf
 from app.schema.quantities import Input
+from app.schema.reading import did_you_mean
 from app.spreadsheet import csv_of
 from app.studies import runner
-from app.studies.fields import did_you_mean, is_number
+from app.studies.fields import is_number
 from app.studies.point_sets import CheckedAxis, PointSet, drawn, grid, listed, scattering, unit_cube
 from app.studies.points import BaseRequest, Point, check_count
 from app.studies.requests import (
