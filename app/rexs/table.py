@@ -67,33 +67,26 @@ class Row(NamedTuple):
         return self.attributes[0]
 
 
+# The editions of standards, as versions of REXS spell them at the ends of names; the newest spelling comes first.
+ISO_6336 = ("iso_6336_2019", "iso_6336_2006")
+AGMA_925 = ("agma_925_2003", "agma_925_a03")
+AGMA_2101 = ("agma_2101_1995", "agma_2101_c95")
+
+
+def _by(name: str, *editions: str) -> tuple[str, ...]:
+    """Return the names of an attribute that depends on a standard, one for each edition."""
+    return tuple(f"{name}_{edition}" for edition in editions)
+
+
 APPLICATION_FACTOR, SCUFFING_FACTOR = "load.application_factor", "scuffing.application_factor"
 """Two fields of a draft. If a draft has both, only `scuffing.application_factor` is sent to /v1/scuffing."""
 STAGE = (
     Row("gears.centre_distance_mm", ("center_distance",), "mm"),
-    Row(
-        APPLICATION_FACTOR,
-        ("application_factor_iso_6336_2019", "application_factor_iso_6336_2006", "application_factor_din_3990_1987"),
-    ),
-    Row(
-        "load.dynamic_factor",
-        (
-            "dynamic_factor_iso_6336_2019",
-            "dynamic_factor_iso_6336_2006",
-            "dynamic_factor_din_3990_1987",
-            "dynamic_factor_agma_2101_1995",
-            "dynamic_factor_agma_2101_c95",
-            "dynamic_factor_agma_925_2003",
-            "dynamic_factor_agma_925_a03",
-        ),
-    ),
-    Row("load.mesh_load_factor", ("mesh_load_factor_iso_6336_2019", "mesh_load_factor_iso_6336_2006")),
+    Row(APPLICATION_FACTOR, _by("application_factor", *ISO_6336, "din_3990_1987")),
+    Row("load.dynamic_factor", _by("dynamic_factor", *ISO_6336, "din_3990_1987", *AGMA_2101, *AGMA_925)),
+    Row("load.mesh_load_factor", _by("mesh_load_factor", *ISO_6336)),
     Row(SCUFFING_FACTOR, ("application_factor_scuffing_iso_6336_2022",)),
-    Row(
-        "temperatures.scuffing_c",
-        ("mean_scuffing_temperature_agma_925_2003", "mean_scuffing_temperature_agma_925_a03"),
-        "C",
-    ),
+    Row("temperatures.scuffing_c", _by("mean_scuffing_temperature", *AGMA_925), "C"),
 )
 MATERIAL = (
     Row("youngs_modulus_gpa", ("elastic_modulus",), "GPa"),
@@ -109,11 +102,7 @@ OIL = (
     Row("kinematic_viscosity_40_mm2_per_s", ("viscosity_at_40_degree_celsius",), "mm^2/s"),
     Row("kinematic_viscosity_100_mm2_per_s", ("viscosity_at_100_degree_celsius",), "mm^2/s"),
     Row("density_15_kg_per_m3", ("density_at_15_degree_celsius",), "kg/m^3"),
-    Row(
-        "pressure_viscosity_per_gpa",
-        ("pressure_viscosity_coefficient_agma_925_2003", "pressure_viscosity_coefficient_agma_925_a03"),
-        "1/GPa",
-    ),
+    Row("pressure_viscosity_per_gpa", _by("pressure_viscosity_coefficient", *AGMA_925), "1/GPa"),
     *HEAT,
 )
 PRESSURE_VISCOSITY_38 = Row(
@@ -150,8 +139,7 @@ ROUGHNESS = Row(
     (
         "arithmetic_mean_roughness_flank_iso_4287_1997",
         "arithmetic_average_roughness_flank",
-        "arithmentic_mean_roughness_at_filter_cutoff_of_wavelength_agma_925_2003",
-        "arithmentic_mean_roughness_at_filter_cutoff_of_wavelength_agma_925_a03",
+        *_by("arithmentic_mean_roughness_at_filter_cutoff_of_wavelength", *AGMA_925),
     ),
     "um",
 )
@@ -164,31 +152,13 @@ WIDTH = Row("width_mm", ("face_width", "width"), "mm")
 AXIAL_FORCE = Row("load.axial_force_n", ("force_u_direction",), "N")
 HOLDS_ALONG_U, HOLDS_NOTHING = "axial_force_absorption", {"", "no_direction"}
 OIL_TEMPERATURE = Row(
-    "temperatures.oil_c",
-    (
-        "temperature_lubricant",
-        "oil_inlet_or_sump_temperature_agma_925_2003",
-        "oil_inlet_or_sump_temperature_agma_925_a03",
-    ),
-    "C",
+    "temperatures.oil_c", ("temperature_lubricant", *_by("oil_inlet_or_sump_temperature", *AGMA_925)), "C"
 )
-BULK_TEMPERATURE = Row(
-    "temperatures.bulk_c",
-    ("bulk_temperature", "tooth_temperature_agma_925_2003", "tooth_temperature_agma_925_a03"),
-    "C",
-)
-FRICTION = Row(
-    "friction_coefficient",
-    ("mean_coefficient_of_friction_constant_agma_925_2003", "mean_coefficient_of_friction_constant_agma_925_a03"),
-)
-FRICTION_METHODS = (
-    "determination_of_mean_coefficient_of_friction_agma_925_2003",
-    "determination_of_mean_coefficient_of_friction_agma_925_a03",
-)
+BULK_TEMPERATURE = Row("temperatures.bulk_c", ("bulk_temperature", *_by("tooth_temperature", *AGMA_925)), "C")
+FRICTION = Row("friction_coefficient", _by("mean_coefficient_of_friction_constant", *AGMA_925))
+FRICTION_METHODS = _by("determination_of_mean_coefficient_of_friction", *AGMA_925)
 OIL_SUPPLY = (
-    "lubrication_type_agma_925_2003",
-    "lubrication_type_agma_925_a03",
-    "lubrication_type_vdi_2736_2014",
+    *_by("lubrication_type", *AGMA_925, "vdi_2736_2014"),
     "determination_of_lubrication_type_vdi_2736_2014",
     "lubrication_type",
 )
@@ -212,12 +182,7 @@ JOURNAL = (
     Row("feed_temperature_c", ("lubricant_feed_temperature",), "C"),
     Row("oil_flow_l_per_min", ("lubricant_flow_through_bearing",), "l/min"),
 )
-OIL_TYPES = (
-    "lubricant_type_iso_6336_2019",
-    "lubricant_type_iso_6336_2006",
-    "lubricant_type_agma_925_2003",
-    "lubricant_type_agma_925_a03",
-)
+OIL_TYPES = _by("lubricant_type", *ISO_6336, *AGMA_925)
 OIL_WORDS = ("basis", "kind", "name")
 OTHER_OILS = ("phosphat", "traction", "traktion", "silicon", "water_soluble", "wasserl")
 NOT_SOLUBLE = ("non_water_soluble", "nicht_wasserl")
