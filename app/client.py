@@ -38,6 +38,7 @@ OPTIONS: dict[str, Any] = {
     "limits": httpx.Limits(keepalive_expiry=3.0),  # s; the service closes idle connections after 5 s
 }
 PATIENCE_S = 120.0  # s; default of `patience_s`; chosen: four times the service's deadline
+CUT_OFF = "the connection was closed before the study's end"
 LEAST_WAIT_S = 0.25  # s; shortest wait before a busy service is asked again; chosen
 
 
@@ -251,7 +252,7 @@ class _Study(Generic[Http]):
         if self._bar is not None:
             self._bar.close()
         if not self.end:
-            raise StudyError("the connection was closed before the study's end")
+            raise StudyError(CUT_OFF)
 
     def _table(self, results: list[Json]) -> "DataFrame":
         from pandas import DataFrame, json_normalize  # noqa: PLC0415  only tables need it
@@ -290,9 +291,9 @@ class Study(_Study[httpx.Client]):
         """
         give_up = self._begin()
         while True:
-            with _answered(), self._http.stream("POST", self._endpoint, json=self._request) as response:
+            with _connected(), self._http.stream("POST", self._endpoint, json=self._request) as response:
                 if response.is_success:
-                    with _whole():
+                    with _connected(StudyError, CUT_OFF):
                         for text in response.iter_lines():
                             yield from self._results(text)
                     return self._finish()
@@ -331,10 +332,10 @@ class AsyncStudy(_Study[httpx.AsyncClient]):
         """
         give_up = self._begin()
         while True:
-            with _answered():
+            with _connected():
                 async with self._http.stream("POST", self._endpoint, json=self._request) as response:
                     if response.is_success:
-                        with _whole():
+                        with _connected(StudyError, CUT_OFF):
                             async for text in response.aiter_lines():
                                 for line in self._results(text):
                                     yield line
@@ -385,7 +386,7 @@ class Tribodrive(_Endpoints[Json, Study]):
         """Post a request to an endpoint and return the answer. Raises `ProblemError` if the answer is a problem."""
         give_up = time.monotonic() + self._patience_s
         while True:
-            with _answered():
+            with _connected():
                 response = self._http.post(endpoint, json=request)
             if response.is_success:
                 return _json_of(response)
@@ -408,7 +409,7 @@ class Tribodrive(_Endpoints[Json, Study]):
         dict
             Body of the request.
         """
-        with _answered():
+        with _connected():
             return _request_of(self._http.get(f"/v1/examples/{name}"))
 
 
@@ -433,7 +434,7 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
         """Post a request to an endpoint and return the answer. Raises `ProblemError` if the answer is a problem."""
         give_up = time.monotonic() + self._patience_s
         while True:
-            with _answered():
+            with _connected():
                 response = await self._http.post(endpoint, json=request)
             if response.is_success:
                 return _json_of(response)
@@ -456,26 +457,17 @@ class AsyncTribodrive(_Endpoints[Awaitable[Json], AsyncStudy]):
         dict
             Body of the request.
         """
-        with _answered():
+        with _connected():
             return _request_of(await self._http.get(f"/v1/examples/{name}"))
 
 
 @contextmanager
-def _answered() -> Iterator[None]:
-    """Raise ServiceError if the service cannot be reached, or if the connection breaks off."""
+def _connected(kind: type[ServiceError] = ServiceError, what: str = "the connection failed") -> Iterator[None]:
+    """Raise an error if the service cannot be reached, or if the connection breaks off."""
     try:
         yield
     except httpx.RequestError as error:
-        raise ServiceError(f"the connection failed: {error or type(error).__name__}") from error
-
-
-@contextmanager
-def _whole() -> Iterator[None]:
-    """Raise StudyError if the connection breaks off before the study has ended."""
-    try:
-        yield
-    except httpx.RequestError as error:
-        raise StudyError(f"the connection was closed before the study's end: {error}") from error
+        raise kind(f"{what}: {str(error) or type(error).__name__}") from error
 
 
 def _json_of(response: httpx.Response) -> Json:

@@ -62,14 +62,6 @@ class FromFile:
         return drafted if known and drafted not in self.unknown else None
 
 
-def _nothing(_: Any) -> dict[str, Any]:
-    return {}
-
-
-def _silence(_: Any) -> str:
-    return ""
-
-
 @dataclass(frozen=True, slots=True)
 class Words:
     """What pages, studies and files say of an endpoint's answers. Paths are dotted paths of the answer.
@@ -87,10 +79,10 @@ class Words:
     chapters       the chapters of the manual about optional sections, by section
     """
 
-    verdicts: Callable[[Any], dict[str, Verdict]] = _nothing
-    conclusion: Callable[[Any], str] = _silence
-    belongs: Callable[[Any], dict[str, str]] = _nothing
-    remarks: Callable[[Any], dict[str, str]] = _nothing
+    verdicts: Callable[[Any], dict[str, Verdict]] = lambda _: {}
+    conclusion: Callable[[Any], str] = lambda _: ""
+    belongs: Callable[[Any], dict[str, str]] = lambda _: {}
+    remarks: Callable[[Any], dict[str, str]] = lambda _: {}
     losses: tuple[str, ...] = ()
     scuffing: ScuffingPaths | None = None
     of_the_film: frozenset[str] | None = None

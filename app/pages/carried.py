@@ -35,15 +35,10 @@ class Use(NamedTuple):
     missing: list[str]
 
 
-def subject_of(calculation: Calculation) -> str:
-    """Return what a calculation describes: "pair" for a gear pair, "coupling" for a coupling, otherwise ""."""
-    return card_of(calculation).subject
-
-
 def uses(asked: Asked) -> list[Use]:
     """Return links to all other calculations that accept the same gears or the same coupling."""
-    subject = subject_of(asked.calculation)
-    others = (other for other in CALCULATIONS if other is not asked.calculation and subject_of(other) == subject)
+    subject = card_of(asked.calculation).subject
+    others = (other for other in CALCULATIONS if other is not asked.calculation and card_of(other).subject == subject)
     return [_use(asked, other) for other in others] if subject else []
 
 
@@ -64,7 +59,7 @@ def _use(asked: Asked, other: Calculation) -> Use:
 
 def _common(calculation: Calculation, name: str) -> str:
     """Return the name under which a link keeps the field `name` of a calculation."""
-    if subject_of(calculation) != "pair" or not name.startswith(OPERATION):
+    if card_of(calculation).subject != "pair" or not name.startswith(OPERATION):
         return name
     renamed = f"{LOAD}{name.removeprefix(OPERATION)}"
     return renamed if _has(BY_PATH["/v1/scuffing"].request, renamed) else name
@@ -87,8 +82,7 @@ def _missing(branch: Branch, names: set[str]) -> Iterator[str]:
     for group in _choices(branch.model):
         paths = [f"{branch.path}.{name}" for name in group]
         if names.isdisjoint(paths):
-            leaves = (leaf for path in paths if (leaf := _leaf(branch, path)))
-            yield " or ".join(leaf.declared.title for leaf in leaves)
+            yield " or ".join(leaf.declared.title for leaf in branch.leaves if leaf.path in paths)
     for member in branch.members:
         if isinstance(member, Leaf):
             if member.required and member.path not in names:
@@ -107,10 +101,6 @@ def _choices(model: type[Documented]) -> Iterable[tuple[str, ...]]:
     """Return groups of fields. A request must contain exactly one field of each group."""
     groups: Any = model.exclusive if getattr(model, "choice_missing", None) else ()
     return [group for group in groups[:1] if all(model.model_fields[name].default is None for name in group)]
-
-
-def _leaf(branch: Branch, path: str) -> Leaf | None:
-    return next((leaf for leaf in branch.leaves if leaf.path == path), None)
 
 
 def _is_given(path: str, names: set[str]) -> bool:

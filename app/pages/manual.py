@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache, lru_cache
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any
 
 from latex2mathml.converter import convert
 from markdown_it import MarkdownIt
@@ -130,31 +130,18 @@ def _named(declared: Quantity) -> str:
     return Markup(" ").join(part for part in (declared.title, symbol(declared.symbol), text) if part)
 
 
-class Symbol(NamedTuple):
-    """A symbol, the title of its quantity, and the unit in which the service shows the quantity."""
-
-    symbol: str
-    title: str
-    unit: str
-
-
 @cache
-def symbols_of(chapter: Chapter) -> list[Symbol]:
-    """Return the symbols that a chapter needs, sorted."""
-    symbols = dict[tuple[str, str], Symbol]()
+def symbols_of(chapter: Chapter) -> list[Leaf]:
+    """Return a field for each symbol that a chapter needs, sorted by the symbols."""
+    symbols = dict[tuple[str, str], Leaf]()
     for calculation in CALCULATIONS:
         own = leaves(calculation.request) if chapter_of(calculation) == chapter else ()
-        results = (leaf for leaf in leaves(calculation.response) if _is_of(leaf, chapter))
+        placed = ((leaf, place_of(leaf.declared)) for leaf in leaves(calculation.response))
+        results = (leaf for leaf, place in placed if place and place.chapter == chapter.name)
         for leaf in (*own, *results):
             if symbol := leaf.declared.symbol:
-                symbols.setdefault((symbol, leaf.declared.title), Symbol(symbol, leaf.declared.title, leaf.unit or ""))
-    return sorted(symbols.values(), key=lambda symbol: (symbol.symbol.casefold(), symbol.title))
-
-
-def _is_of(leaf: Leaf, chapter: Chapter) -> bool:
-    """Return whether a chapter describes how a result is computed."""
-    place = place_of(leaf.declared)
-    return place is not None and place.chapter == chapter.name
+                symbols.setdefault((symbol, leaf.declared.title), leaf)
+    return [symbols[key] for key in sorted(symbols, key=lambda key: (key[0].casefold(), key[1]))]
 
 
 @dataclass(frozen=True, slots=True)

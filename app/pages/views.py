@@ -3,13 +3,13 @@
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
-from app.calculations import BY_PATH, Calculation
+from app.calculations import BY_PATH, Calculation, card_of
 from app.errors import Unreadable
 from app.evaluate import written as json_written
 from app.figures import Format, written
 from app.pages import csv
 from app.pages import report as reports
-from app.pages.carried import subject_of, uses
+from app.pages.carried import uses
 from app.pages.cases import REFUSED, Asked, FormFault, SolvedCase, faults_of, key_of, solved
 from app.pages.charts import figure_of, figures_of, linked, values_of
 from app.pages.form import FormState, form
@@ -145,7 +145,7 @@ def _page(
         sections=form(calculation.request, replace(state, deciding=_deciding(calculation))),
         examples=[(example, example_link(calculation, example)) for example in examples_of(calculation)],
         studies=study_links(calculation),
-        subject=subject_of(calculation),
+        subject=card_of(calculation).subject,
         uses=[] if asked.too_long else uses(asked),
         headlines=headlines(calculation.response),
         **context,

@@ -26,13 +26,8 @@ LARGEST = 1e30  # largest absolute value of an accepted number; sums and product
 DIGITS = 7
 PARALLEL = 0.9  # axes of shafts with a larger cosine between them count as parallel; chosen
 SCUFFING, TRAIN = "/v1/scuffing", "/v1/drive-train"
-READABLE = {
-    calculation.path: calculation.words.from_file
-    for calculation in sorted(
-        CALCULATIONS, key=lambda each: each.words.from_file is None or not each.words.from_file.loaded
-    )
-    if calculation.words.from_file
-}
+_FROM_FILES = {each.path: each.words.from_file for each in CALCULATIONS if each.words.from_file}
+READABLE = dict(sorted(_FROM_FILES.items(), key=lambda item: not item[1].loaded))
 """What the endpoints take of a draft whose requests are made from files; those that take the load come first."""
 Vector = tuple[float, float, float]
 

@@ -5,9 +5,9 @@ from typing import Any
 
 import pytest
 
-from app.calculations import BY_PATH, CALCULATIONS, Calculation
+from app.calculations import BY_PATH, CALCULATIONS, Calculation, card_of
 from app.examples import examples
-from app.pages.carried import Use, subject_of, uses
+from app.pages.carried import Use, uses
 from app.pages.cases import Asked, solved
 from app.pages.query import pairs_of
 from app.pages.templating import page_path
@@ -16,7 +16,7 @@ from tests.support.pages import asked, asked_by, html_of
 from tests.support.requests import changed
 
 SCUFFING = "starter-industrial-scuffing"
-GEARS = [each for each in CALCULATIONS if subject_of(each) == "pair"]
+GEARS = [each for each in CALCULATIONS if card_of(each).subject == "pair"]
 
 
 def use_of(found: Asked, title: str) -> Use:
@@ -77,10 +77,14 @@ def test_what_is_missing_is_named_and_marked() -> None:
     assert any("speed" in each for each in speed.missing)
 
 
-@pytest.mark.parametrize("calculation", [each for each in CALCULATIONS if subject_of(each)], ids=page_path)
+@pytest.mark.parametrize("calculation", [each for each in CALCULATIONS if card_of(each).subject], ids=page_path)
 def test_every_page_of_gears_or_a_coupling_has_the_links(calculation: Calculation) -> None:
     example = next(each for each in examples().values() if each.endpoint == calculation.path)
-    others = [each for each in CALCULATIONS if each is not calculation and subject_of(each) == subject_of(calculation)]
+    others = [
+        each
+        for each in CALCULATIONS
+        if each is not calculation and card_of(each).subject == card_of(calculation).subject
+    ]
     found = uses(Asked(page_path(calculation), pairs_of(example.request)))
     assert [each.title for each in found] == [each.title for each in others]
 

@@ -55,7 +55,7 @@ def test_ten_drawn_numbers_of_a_page_lead_to_their_equations() -> None:
 def test_a_chapter_lists_its_symbols(name: str) -> None:
     symbols = symbols_of(chapters()[name])
     assert len(symbols) > 3
-    assert len({(each.symbol, each.title) for each in symbols}) == len(symbols)
+    assert len({(each.declared.symbol, each.declared.title) for each in symbols}) == len(symbols)
     assert 'href="#symbols"' in chapter_page("", name)
 
 

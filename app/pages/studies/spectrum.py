@@ -45,6 +45,8 @@ CONTROLS = (
     Control("limit", "limit.value"),
     Control("limit.side", "limit.side", read=str),
     Control("limit.by", "limit.deviation"),
+    Control("machines", "tolerances", sets=False),
+    Control("limit", "limits", sets=False),
 )
 TOLERANCE = (
     Control("", "path", read=str),
@@ -159,11 +161,7 @@ class SpectrumPage(StudyPage):
 
     def declared(self) -> tuple[Control, ...]:
         """Return the controls for cases, machines, hours of operation, limit and tolerances."""
-        controls = [
-            *CONTROLS,
-            Control("machines", "tolerances", sets=False),
-            Control("limit", "limits", sets=False),
-        ]
+        controls = [*CONTROLS]
         for place, name in enumerate(self._given()):
             path = self.views[name]
             leaf, where = self.field_at(path), f"tolerances.inputs.{place}"
