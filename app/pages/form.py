@@ -9,7 +9,6 @@ from dataclasses import dataclass, field, replace
 from itertools import accumulate, groupby, product
 from typing import Any
 
-from app.calculations import CALCULATIONS
 from app.manual.fields import address as row_address
 from app.pages.query import MATRIX, PICK, PRESENT, SIDE, excluded
 from app.pages.typed import text_of
@@ -21,7 +20,6 @@ from app.schema.quantities import split_unit
 
 REQUIRED, IF_USED = "required", "required if used"
 BESIDE = 10  # largest number of letters of an option that still fits beside the label of its field
-ENDPOINTS = {calculation.request: calculation.path for calculation in CALCULATIONS}
 DETAIL = "detail"
 """Name of the request field that sets the level of detail of the answer.
 
@@ -159,7 +157,6 @@ def title_of(request: type[Request], path: str) -> str:
 def form(request: type[Request], state: FormState) -> tuple[FormSection, ...]:
     """Return the sections of the form: sections with required fields first, advanced sections last."""
     root, loose = tree(request), list[Block]()
-    state = replace(state, endpoint=ENDPOINTS.get(request, ""))
     sections = []
     for block in _blocks(root, "", state):
         if not isinstance(block, FormSection):

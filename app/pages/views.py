@@ -135,6 +135,7 @@ def _page(
     asked: Asked, state: FormState, status: int = 200, keep: dict[str, bytes] | None = None, **answer: Any
 ) -> Shown:
     calculation = asked.calculation
+    state = replace(state, deciding=_deciding(calculation), endpoint=calculation.path)
     context = {"faults": [], "response": None, "compared": False, "cards": (), "trouble": "", **answer}
     content = rendered(
         "calculation.html",
@@ -142,7 +143,7 @@ def _page(
         asked=asked,
         calculation=calculation,
         chapter=chapter_of(calculation).name,
-        sections=form(calculation.request, replace(state, deciding=_deciding(calculation))),
+        sections=form(calculation.request, state),
         examples=[(example, example_link(calculation, example)) for example in examples_of(calculation)],
         studies=study_links(calculation),
         subject=card_of(calculation).subject,

@@ -162,10 +162,8 @@ OIL_SUPPLY = (
     "determination_of_lubrication_type_vdi_2736_2014",
     "lubrication_type",
 )
-SUPPLY_FACTOR, SUPPLY_FACTORS = (
-    "lubrication_factor_scuffing_iso_6336_2022",
-    {1.2: "spray", 1.0: "dip", 0.2: "submerged"},
-)
+SUPPLY_FACTOR = "lubrication_factor_scuffing_iso_6336_2022"
+SUPPLY_FACTORS = {1.2: "spray", 1.0: "dip", 0.2: "submerged"}
 SUPPLIES = {"splash": "dip", "dip": "dip", "bath": "dip", "submerged": "submerged", "spray": "spray",
             "injection": "spray", "circulating": "spray"}  # fmt: skip
 """Words that identify the oil supply of a mesh in files, and the oil supply that each word means."""
