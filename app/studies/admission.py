@@ -36,7 +36,7 @@ class StudyPool:
 
         The future raises WorkerLost, DeadlineExceeded, and the exceptions of the function.
         """
-        return self._workers.submit(self, function, *arguments, is_single=False)
+        return self._workers.submit(self, function, *arguments, is_single=False).outcome
 
 
 class StudyAdmission:

@@ -77,18 +77,15 @@ class Pool:
         """Run a call of a client in a worker. Raises the errors of the call and the errors in the table `PROBLEMS`."""
         owner = http.headers.get(self._settings.client_header or "") or (http.client.host if http.client else "")
         self._admit(owner)
-        job = self._queued(owner, function, arguments, is_single=True)
+        job = self.submit(owner, function, *arguments)
         try:
             return await unless_gone(http, job.outcome, lambda: self._settings.deadline_s + job.compiled_s)
         except TimeoutError:
             DEADLINES_MISSED.inc()
             raise DeadlineExceeded from None
 
-    def submit(self, owner: Hashable, function: Callable[..., Any], *arguments: Any, is_single: bool = True) -> Outcome:
-        """Add a call to the queue and return a future of the call's result. To give up the call, cancel the future."""
-        return self._queued(owner, function, arguments, is_single=is_single).outcome
-
-    def _queued(self, owner: Hashable, function: Callable[..., Any], arguments: Any, *, is_single: bool) -> Job:
+    def submit(self, owner: Hashable, function: Callable[..., Any], *arguments: Any, is_single: bool = True) -> Job:
+        """Add a call to the queue. To give up the call, cancel its outcome."""
         job = Job(owner, pickle.dumps((function, arguments)), is_single, asyncio.get_running_loop().create_future())
         job.outcome.add_done_callback(lambda _: self._let_go(job))
         self._waiting.append(job)

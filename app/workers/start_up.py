@@ -50,9 +50,9 @@ class StartUp:
         """Wait until the groups of a request are ready. Raises WarmingUp after `WAIT_S`, ClientGone if nobody waits."""
         names = {group.name for group in groups} - {*self.warm}
         if names:
-            waiting = [self._ready[name] for name in names & self._ready.keys()]
+            waiting = asyncio.gather(*(self._ready[name].wait() for name in names & self._ready.keys()))
             with suppress(TimeoutError):
-                await unless_gone(http, asyncio.ensure_future(_all_set(waiting)), lambda: WAIT_S)
+                await unless_gone(http, waiting, lambda: WAIT_S)
             self.require(groups)
 
     async def run(self, pool: Pool | None = None) -> None:
@@ -121,8 +121,3 @@ class StartUp:
         self._percent[name] = max(percent, self._percent[name])
         if percent == 100:
             self._ready[name].set()
-
-
-async def _all_set(events: Sequence[asyncio.Event]) -> None:
-    for event in events:
-        await event.wait()

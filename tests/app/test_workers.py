@@ -95,7 +95,7 @@ def with_pool(
 
 
 def ask(pool: Pool, owner: str, name: str, **options: bool) -> Outcome:
-    return pool.submit(owner, str, name, **options)
+    return pool.submit(owner, str, name, **options).outcome
 
 
 def test_the_next_worker_goes_to_whoever_has_the_fewest_then_to_whoever_waits_longest(

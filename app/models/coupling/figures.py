@@ -233,11 +233,8 @@ def tooth_motion(_: CouplingInputs, result: CouplingResult) -> Figure:
 def contact_track(_: CouplingInputs, result: CouplingResult) -> Figure:
     """Draw position and width of the contact on the face over a revolution."""
     curves, lubrication = result.kinematics.curves, result.lubrication
-    position, half, edge = (
-        curves.contact_position,
-        lubrication.hertz_half_width,
-        result.derived.coupling.face_width / 2.0,
-    )
+    position, half = curves.contact_position, lubrication.hertz_half_width
+    edge = result.derived.coupling.face_width / 2.0
     panel = Panel(
         x=TOOTH,
         y=axis(curves, "contact_position", "position on the hub tooth from its middle", magnitude=False),
