@@ -30,7 +30,7 @@ class InlineWorkers(Pool):
         super().__init__(settings, ())
         self.alive = self.size
 
-    def _queued(self, owner: Hashable, function: Callable[..., Any], arguments: Any, *, is_single: bool) -> Job:
+    def submit(self, owner: Hashable, function: Callable[..., Any], *arguments: Any, is_single: bool = True) -> Job:
         job = Job(owner, pickle.dumps((function, arguments)), is_single, asyncio.get_running_loop().create_future())
         called, given = pickle.loads(job.call)  # noqa: S301  of this test
         try:
