@@ -71,13 +71,16 @@ def answer(endpoint: str, request: dict[str, Any]) -> dict[str, Any]:
         the field.
     """
     calculation = calculation_at(endpoint)
-    content: dict[str, Any] = json.loads(json_answer(calculation, validated(calculation.request, request)))
+    content: dict[str, Any] = json.loads(written(evaluate(calculation, validated(calculation.request, request))))
     return content
 
 
 def answer_of(path: str, request: Request) -> bytes:
-    """Solve a request to the endpoint `path` and return the answer as JSON. This function runs in a worker process."""
-    return json_answer(BY_PATH[path], request)
+    """Solve a request to the endpoint `path` and return the answer as JSON. Raises the errors of `evaluate`.
+
+    This function runs in a worker process.
+    """
+    return written(evaluate(BY_PATH[path], request))
 
 
 def figure_of(name: str, image_format: figures.Format, theme: ThemeName, path: str, request: Request) -> bytes:
@@ -100,14 +103,6 @@ def warm(group: KernelGroup) -> None:
         if group.model:
             request = request | {"model": request.get("model", {}) | dict(group.model)}
         answer_of(example.endpoint, BY_PATH[example.endpoint].request.model_validate(request))
-
-
-def json_answer(calculation: Calculation, request: Request) -> bytes:
-    """Solve a request and return the answer as JSON.
-
-    This function runs in a worker process. Raises the errors of `evaluate`.
-    """
-    return written(evaluate(calculation, request))
 
 
 def written(response: Response) -> bytes:

@@ -95,7 +95,8 @@ def create_app() -> FastAPI:
     app.include_router(rexs.pages)
     app.mount(service.DOCS_ASSETS, StaticFiles(packages=[("fastapi_offline", "static")]))
     problems.install(app)
-    for kind in [HTTPException, *PROBLEMS]:
+    app.add_exception_handler(HTTPException, pages.failed)
+    for kind in PROBLEMS:
         app.add_exception_handler(kind, pages.failed)
     app.add_middleware(
         GZipMiddleware, minimum_size=COMPRESSED_FROM, compresslevel=4, exclude_content_types=NOT_COMPRESSED

@@ -5,13 +5,13 @@ from collections.abc import Iterator
 from functools import cache
 from inspect import get_annotations
 from types import NoneType
-from typing import Any, Literal, NamedTuple, get_args, get_origin
+from typing import Any, NamedTuple, get_args, get_origin
 
 from pydantic import BaseModel
 
 from app.calculations import CALCULATIONS
 from app.manual import FIELDS
-from app.schema.fields import walk
+from app.schema.fields import TYPES, options_of, walk
 from app.schema.model import Member
 from app.schema.quantities import Input, Output
 from app.studies.kinds import KINDS
@@ -26,7 +26,6 @@ SECTIONS = {
     "Studies": "The inputs of the studies. The field `request` contains a request of the endpoint that is studied.",
     "Service": "The answers of the other addresses.",
 }
-WORDS: dict[Any, str] = {float: "number", int: "integer", bool: "boolean", str: "text", Any: "any"}
 
 Models = tuple[tuple[str, type[BaseModel]], ...]
 """Endpoints, each with the model of its request or answer."""
@@ -106,17 +105,13 @@ def _cells(field: Member) -> tuple[str, ...]:
 
 def _type(field: Member) -> str:
     """Return the type of a field's values in words."""
-    words = []
     if Any in field.kinds:  # checked by a validator, which brings its own schema
         document = field.model.model_json_schema()["properties"][field.name]
         return " or ".join(dict.fromkeys(_words(document)))
+    words = list[str]()
     for kind in field.kinds:
-        if get_origin(kind) is Literal:
-            words += [f"`{each}`" if isinstance(each, str) else str(each) for each in get_args(kind)]
-        elif hasattr(kind, "__members__"):
-            words += [f"`{each.value}`" for each in kind]
-        else:
-            words.append(WORDS.get(kind, "object" if get_origin(kind) is dict or kind is dict else str(kind)))
+        plain = TYPES.get(kind, "object" if get_origin(kind) is dict or kind is dict else str(kind))
+        words += [f"`{each}`" if isinstance(each, str) else str(each) for each in options_of(kind)] or [plain]
     text = ("", "list of ", "matrix of ")[field.dimensions] + " or ".join(dict.fromkeys(words))
     return f"{text} or null" if NoneType in get_args(field.info.annotation) else text
 

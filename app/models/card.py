@@ -46,11 +46,6 @@ class FromFile:
     unknown: frozenset[str] = frozenset()
     renamed: Mapping[str, str] = field(default_factory=dict)
 
-    @property
-    def loaded(self) -> bool:
-        """Whether the request takes the load of the draft as it is."""
-        return self.sections is not None and "load" in self.sections
-
     def path(self, drafted: str) -> str | None:
         """Return the path of a field of the draft in the request; None if the request does not have the field."""
         if drafted in self.renamed:

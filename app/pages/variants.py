@@ -101,7 +101,7 @@ def _table(asked: Asked, columns: list[VariantColumn]) -> Variants:
     request, response = asked.calculation.request, asked.calculation.response
     paths = dict.fromkeys(path for column in filled for path in column.inputs)
     differing = [path for path in paths if len({repr(column.inputs.get(path)) for column in filled}) > 1]
-    inputs = [row for path in differing if (leaf := leaf_at(request, path)) for row in [row_of(leaf, path)]]
+    inputs = [row_of(leaf, path) for path in differing if (leaf := leaf_at(request, path))]
     results = [row_of(leaf, leaf.path) for leaf in headlines(response)]
     return Variants(
         columns,

@@ -46,7 +46,7 @@ def fastened(reading: Reading, shafts: Iterable[Component]) -> dict[int, int]:
 def joints(reading: Reading) -> Iterator[Joint]:
     """Yield the connections of a unit except its bearings. Kinds that are not known are findings."""
     model = reading.model
-    for relation in model.sides:
+    for relation in (relation for relation in model.relations if relation.type == "side"):
         joint, inner, outer = (model.part(relation, role) for role in ("assembly", "inner_part", "outer_part"))
         if joint is None or inner is None or outer is None or not {inner.type, outer.type} <= table.JOINED:
             continue

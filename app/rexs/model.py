@@ -95,11 +95,6 @@ class RexsUnit:
                 relations[relation.type, role, component].append(relation)
         return relations
 
-    @cached_property
-    def sides(self) -> list[Relation]:
-        """The relations between a connection, such as a bearing or a coupling, and the two parts that it connects."""
-        return [relation for relation in self.relations if relation.type == "side"]
-
     def first(self, type_: str) -> Component | None:
         """Return the first component of a type. A file usually has only one `gear_unit` and only one `gear_casing`."""
         return next(iter(self.by_type[type_]), None)

@@ -27,7 +27,7 @@ DIGITS = 7
 PARALLEL = 0.9  # axes of shafts with a larger cosine between them count as parallel; chosen
 SCUFFING, TRAIN = "/v1/scuffing", "/v1/drive-train"
 _FROM_FILES = {each.path: each.words.from_file for each in CALCULATIONS if each.words.from_file}
-READABLE = dict(sorted(_FROM_FILES.items(), key=lambda item: not item[1].loaded))
+READABLE = dict(sorted(_FROM_FILES.items(), key=lambda item: "load" not in (item[1].sections or ())))
 """What the endpoints take of a draft whose requests are made from files; those that take the load come first."""
 Vector = tuple[float, float, float]
 

@@ -104,7 +104,10 @@ def _stage(pair: Pair, base: PowerFlow, flows: list[PowerFlow]) -> tuple[dict[st
     if is_train:
         requests[TRAIN] = stage.request(TRAIN, {**stage.fields, **stage.missing})
     cases = _cases(stage, pair, flows, is_train=is_train)
-    askable = 0 < len(cases) <= MOST_SPECTRUM_CASES
+    spectra = {
+        endpoint: [{"name": each.name[:LONGEST_NAME], "share": each.share, "set": each.of(endpoint)} for each in cases]
+        for endpoint in (requests if 0 < len(cases) <= MOST_SPECTRUM_CASES else ())
+    }
     row = {
         "id": stage.stage.id,
         "name": ", ".join(dict.fromkeys(helix.stage.name for helix in helices_of(stage))),
@@ -114,8 +117,8 @@ def _stage(pair: Pair, base: PowerFlow, flows: list[PowerFlow]) -> tuple[dict[st
         "driver": None if stage.driver is None else stage.pair.gears[stage.driver].id,
         "hand": stage.fields.get("gears.hand"),
         "requests": requests,
-        "cases": [case.of_scuffing for case in cases],
-        "spectra": {endpoint: [case.as_spectrum(endpoint) for case in cases] for endpoint in requests if askable},
+        "cases": [{"name": case.name, "share": case.share, "overrides": case.of(SCUFFING)} for case in cases],
+        "spectra": spectra,
         "missing": _rows(stage.missing.values()),
         "assumed": _rows(stage.assumed.values()),
     }
@@ -156,16 +159,8 @@ class _StageCase(NamedTuple):
     share: float
     changes: dict[str, Any]
 
-    @property
-    def of_scuffing(self) -> dict[str, Any]:
-        """The load case as the answer of /v1/rexs states it."""
-        return {"name": self.name, "share": self.share, "overrides": self._in(SCUFFING)}
-
-    def as_spectrum(self, endpoint: str) -> dict[str, Any]:
-        """Return the load case as a request of /v1/spectrum states it for the calculation `endpoint`."""
-        return {"name": self.name[:LONGEST_NAME], "share": self.share, "set": self._in(endpoint)}
-
-    def _in(self, endpoint: str) -> dict[str, Any]:
+    def of(self, endpoint: str) -> dict[str, Any]:
+        """Return the changes as fields of the request of the calculation `endpoint`."""
         general_last = sorted(self.changes, key=lambda path: path != table.SCUFFING_FACTOR, reverse=True)
         places = {path: READABLE[endpoint].path(path) for path in general_last}
         return {place: rounded(self.changes[path]) for path, place in places.items() if place is not None}

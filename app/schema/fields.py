@@ -20,7 +20,7 @@ from app.schema.quantities import Input, Output, View
 from solvers.quantity import Detail
 
 Kind = Literal["number", "integer", "boolean", "text", "other"]
-_KINDS: dict[Any, Kind] = {float: "number", int: "integer", bool: "boolean", str: "text"}
+TYPES: dict[Any, Kind] = {float: "number", int: "integer", bool: "boolean", str: "text"}
 Names = tuple[str, ...]
 ITEM = "*"
 """Placeholder for the index of a list item in a path: `grooves.*.position_mm`."""
@@ -289,7 +289,7 @@ def _leaf(place: Place, title: str) -> Leaf:
     around it that declares another one.
     """
     member, prefix = place.member, place.path.rpartition(".")[0]
-    info, meaning, options = member.info, member.meaning, _options(member.kinds)
+    info, meaning, options = member.info, member.meaning, next(filter(None, map(options_of, member.kinds)), ())
     groups: tuple[tuple[str, ...], ...] = getattr(member.model, "exclusive", ())
     fellows = (name for group in groups if member.name in group for name in group if name != member.name)
     details = (step.meaning.detail for step in reversed(place.way) if step.meaning.detail != "summary")
@@ -299,7 +299,7 @@ def _leaf(place: Place, title: str) -> Leaf:
         declared=meaning,
         view=meaning if isinstance(meaning, Output) else View(),
         unit=member.unit.symbol if member.unit else None,
-        kind=next((_KINDS[kind] for kind in member.kinds if kind in _KINDS), "text" if options else "other"),
+        kind=next((TYPES[kind] for kind in member.kinds if kind in TYPES), "text" if options else "other"),
         dimensions=member.dimensions,
         nullable=NoneType in get_args(info.annotation),
         required=info.is_required(),
@@ -320,14 +320,11 @@ def _absolute(name: str, prefix: str) -> str:
     return name if "." in name or not prefix else f"{prefix}.{name}"
 
 
-def _options(allowed: tuple[Any, ...]) -> tuple[Any, ...]:
-    """Return the permissible words if one of the `allowed` types is a choice of words, otherwise an empty tuple."""
-    for kind in allowed:
-        if get_origin(kind) is Literal:
-            return get_args(kind)
-        if isinstance(kind, type) and issubclass(kind, Enum):
-            return tuple(member.value for member in kind)
-    return ()
+def options_of(kind: Any) -> tuple[Any, ...]:
+    """Return the permissible words if a type is a choice of words, otherwise an empty tuple."""
+    if get_origin(kind) is Literal:
+        return get_args(kind)
+    return tuple(member.value for member in kind) if isinstance(kind, type) and issubclass(kind, Enum) else ()
 
 
 def field_path(request: Documented, name: str | None) -> str | None:

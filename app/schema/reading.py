@@ -112,11 +112,8 @@ def _located(model: type[BaseModel], location: tuple[str | int, ...]) -> tuple[l
     here: Models = (model,)
     for place, part in enumerate(location):
         last = place == len(location) - 1
-        fields = (
-            [section.model_fields[part] for section in here if part in section.model_fields]
-            if isinstance(part, str)
-            else []
-        )
+        named = (section.model_fields.get(part) for section in here if isinstance(part, str))
+        fields = [field for field in named if field]
         if isinstance(part, int) or fields or not here or last:
             kept.append(part)
         if fields and not last:

@@ -8,7 +8,7 @@ from numpy.random import Generator
 
 from app.calculations import BY_PATH
 from app.errors import Unprocessable
-from app.evaluate import json_answer
+from app.evaluate import evaluate, written
 from app.examples import examples
 from solvers.oils import GRADES
 from tests.support.requests import CONTACT, COUPLING, PAIR, changed, solved
@@ -35,7 +35,7 @@ def outcome(use: str, oil: dict[str, Any], temperatures: list[float]) -> Unproce
     calculation = BY_PATH[endpoint]
     request = changed(body, {path: dict(oil), **dict(zip(places, temperatures, strict=True)), "detail": "summary"})
     try:
-        json_answer(calculation, calculation.request.model_validate(request))
+        written(evaluate(calculation, calculation.request.model_validate(request)))
     except Unprocessable as refusal:
         return refusal
     return None

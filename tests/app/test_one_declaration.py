@@ -18,7 +18,7 @@ from fastapi import FastAPI
 from app import calculations
 from app.calculations import Calculation
 from app.errors import InvalidBody, Unprocessable
-from app.evaluate import evaluate, json_answer, written
+from app.evaluate import evaluate, written
 from app.http.routes.calculations import add
 from app.models.kernels import COUPLING, Kernels
 from app.pages import csv
@@ -122,7 +122,7 @@ LONG = calculation(LongSpring, LongDeflection, solve_long)
 
 def answered(chosen: Calculation, **spring: float) -> dict[str, Any]:
     request = validated(chosen.request, {"spring": {"force_n": 30, **spring}})
-    found: dict[str, Any] = json.loads(json_answer(chosen, request))
+    found: dict[str, Any] = json.loads(written(evaluate(chosen, request)))
     return found
 
 
@@ -228,9 +228,9 @@ ROW = replace(LONG, path="/v1/new-spring", request=PlainRequest)
 def test_an_input_at_the_root_is_one_declaration_too() -> None:
     fields = {name: PlainRequest.model_fields[name] for name in ("force_n", "stiffness_n_per_um", "preload_n")}
     assert [field.is_required() for field in fields.values()] == [True, False, False]
-    found = json.loads(json_answer(ROW, validated(PlainRequest, {"force_n": 30, "preload_n": 50})))
+    found = json.loads(written(evaluate(ROW, validated(PlainRequest, {"force_n": 30, "preload_n": 50}))))
     assert (found["deflection_um"], found["assumptions"]) == (pytest.approx(40.0), [])
-    found = json.loads(json_answer(ROW, validated(PlainRequest, {"force_n": 30})))
+    found = json.loads(written(evaluate(ROW, validated(PlainRequest, {"force_n": 30}))))
     assert [each["field"] for each in found["assumptions"]] == ["preload_n"]
     with pytest.raises(InvalidBody) as refused:
         validated(PlainRequest, {"force_n": 30, "preload_n": 101})

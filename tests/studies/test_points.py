@@ -7,7 +7,7 @@ import pytest
 
 from app.calculations import BY_PATH
 from app.errors import Unprocessable
-from app.evaluate import json_answer
+from app.evaluate import evaluate, written
 from app.examples import examples
 from app.schema.fields import leaves, value_at
 from app.studies import points
@@ -55,7 +55,7 @@ def test_points_are_the_endpoints_own_answers(name: str) -> None:
     assert len({json.dumps(point.out) for point in found}) == len(overrides)
     for each, point in zip(overrides, found, strict=True):
         body = with_overrides(calculation, request, each) | {"detail": "curves"}
-        single = json.loads(json_answer(calculation, calculation.request.model_validate(body)))
+        single = json.loads(written(evaluate(calculation, calculation.request.model_validate(body))))
         assert json.loads(json.dumps(point.out)) == [value_at(single, path) for path in outputs]
         assert point.status == single["status"]
         assert point.warnings == [*dict.fromkeys(warning["code"] for warning in single["warnings"])]
@@ -100,7 +100,7 @@ def test_a_code_counts_once_at_a_point() -> None:
     pair = examples()["starter-turbo-pair-heat"]
     base = changed(pair.request, {"model.lubrication": "closed_form", "cooling.wetting_share": 0.2})
     calculation = BY_PATH[pair.endpoint]
-    answer = json.loads(json_answer(calculation, calculation.request.model_validate(base)))
+    answer = json.loads(written(evaluate(calculation, calculation.request.model_validate(base))))
     codes = [warning["code"] for warning in answer["warnings"]]
     assert codes.count("oil_limited") == 2
     (point,) = solve_chunk(Question(pair.endpoint, base, ["safety.blok_factor"], 30.0), [{}]).points
@@ -120,7 +120,7 @@ def test_what_physics_refuses_is_a_point() -> None:
     calculation = BY_PATH[LOADS.endpoint]
     body = with_overrides(calculation, LOADS.request, {"gears.pinion.addendum": 3.0})
     with pytest.raises(Unprocessable) as caught:
-        json_answer(calculation, calculation.request.model_validate(body))
+        written(evaluate(calculation, calculation.request.model_validate(body)))
     assert point.error["code"] == caught.value.code
 
 

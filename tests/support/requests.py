@@ -14,7 +14,7 @@ from pydantic import ValidationError
 
 from app.calculations import BY_PATH
 from app.errors import Fault
-from app.evaluate import json_answer
+from app.evaluate import evaluate, written
 from app.examples import examples
 from app.schema.reading import faults
 
@@ -52,7 +52,7 @@ def solved(endpoint: str, body: dict[str, Any], changes: Mapping[str, Any] = {})
     # The answer has the detail "summary" unless `changes` sets another detail.
     calculation = BY_PATH[endpoint]
     request = calculation.request.model_validate(changed(body, {"detail": "summary", **changes}))
-    return json.loads(json_answer(calculation, request))
+    return json.loads(written(evaluate(calculation, request)))
 
 
 def example(name: str, changes: Mapping[str, Any] = {}) -> dict[str, Any]:

@@ -45,7 +45,16 @@ def _add(calculation: Calculation, own: type[StudyPage]) -> None:
     policy = {"Content-Security-Policy": pages.DOCUMENT_POLICY}
 
     async def page(http: Request) -> Response:
-        return await _page(http, calculation, own, path)
+        """Send the page as a stream, or as a whole if there is nothing to calculate."""
+        asked, clean = await pages.asked_of(http, calculation)
+        if not clean and http.scope["method"] == "GET":
+            return pages.redirected(path, asked)
+        opened: study_page.Opened = await _planned(http, own, asked, study_page.opened)
+        if opened.page.study is None:
+            return pages.html(opened.head + opened.tail, opened.status)
+        headers = {"Content-Security-Policy": pages.PAGE_POLICY}
+        parts = partial(pieces, http.app.state.studies.own, opened)
+        return await streamed(http, opened.page.study, parts, pages.HTML, headers, PROGRESS_S)
 
     async def lines(http: Request, media: str) -> Response:
         if media not in own.plan.formats:
@@ -75,19 +84,6 @@ def _add(calculation: Calculation, own: type[StudyPage]) -> None:
     router.add_api_route(f"{path}.{{media}}", lines, methods=pages.METHODS)
     router.add_api_route(f"{path}/report", report, methods=pages.METHODS, response_class=HTMLResponse)
     router.add_api_route(f"{path}/figures/{{name}}.{{image_format}}", figure, methods=pages.METHODS)
-
-
-async def _page(http: Request, calculation: Calculation, own: type[StudyPage], path: str) -> Response:
-    """Send the page of a study as a stream, or as a whole if there is nothing to calculate."""
-    asked, clean = await pages.asked_of(http, calculation)
-    if not clean and http.scope["method"] == "GET":
-        return pages.redirected(path, asked)
-    opened: study_page.Opened = await _planned(http, own, asked, study_page.opened)
-    if opened.page.study is None:
-        return pages.html(opened.head + opened.tail, opened.status)
-    headers = {"Content-Security-Policy": pages.PAGE_POLICY}
-    parts = partial(pieces, http.app.state.studies.own, opened)
-    return await streamed(http, opened.page.study, parts, pages.HTML, headers, PROGRESS_S)
 
 
 async def _planned(http: Request, own: type[StudyPage], asked: Asked, view: Callable[..., Any]) -> Any:

@@ -11,8 +11,6 @@ from solvers.coupling import inputs as si
 from solvers.quantity import UNITS
 from solvers.sources import PAHL
 
-STIFFNESS = "tooth_stiffness_n_per_um"
-
 
 class CouplingDesign(Section, of=si.Coupling, without=("crowning_ratio",)):
     """The coupling without its crowning."""
@@ -27,7 +25,7 @@ class CouplingDesign(Section, of=si.Coupling, without=("crowning_ratio",)):
         This value is known only for the tooth stiffness, which follows from the material. Return None for any other
         field.
         """
-        return self.si(si.Coupling).tooth_stiffness * 1e-6 if name == STIFFNESS else None
+        return self.si(si.Coupling).tooth_stiffness * 1e-6 if name == "tooth_stiffness_n_per_um" else None
 
 
 class CrownedCoupling(CouplingDesign, of=si.Coupling):

@@ -95,11 +95,9 @@ def _thrust(response: Any) -> Verdict:
     share, customary, held = thrust.fraction_of_limit, thrust.customary_force_n, thrust.design_force_n
     limit = number(thrust.coaxial_limit_n, "N")
     level = "good" if share is None or abs(share) <= NEAR_LIMIT else "near"
-    moving = (
-        "no load"
-        if share is None
-        else f"the thrust in motion is {percent(abs(share))} of the limit of coaxial shafts, {limit}"
-    )
+    moving = "no load"
+    if share is not None:
+        moving = f"the thrust in motion is {percent(abs(share))} of the limit of coaxial shafts, {limit}"
     if customary is None:
         return Verdict(level, f"{moving}; to compare with the customary thrust 0.25 T/D, give the shaft diameter")
     exceeds = held > customary

@@ -1,10 +1,9 @@
 """The controls in the form of a study. A control states which part of the request body it sets.
 
-`body_of` converts typed texts into the body, and `texts_of` converts a body into texts. `control_at` finds the control
-at which an error of the body is shown.
+`body_of` converts typed texts into the body, and `texts_of` converts a body into texts.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any, NamedTuple
 
 from app.calculations import Calculation
@@ -57,18 +56,6 @@ def texts_of(controls: Iterable[Control], body: Any) -> dict[str, str]:
     """Return the text of each control from which `body_of` would make this body."""
     values = ((control, value_at(body, control.path)) for control in controls if control.sets)
     return {control.name: text_of(value) for control, value in values if value is not None and value != control.default}
-
-
-def control_at(controls: Sequence[Control], path: str) -> str:
-    """Return the name of the control at which an error of the request body is shown. `path` is the place of the error.
-
-    If no control sets the part of the body at `path`, use the control that sets the nearest enclosing part. If no
-    control sets an enclosing part, return `path`. If several controls set the same part, use the last one.
-    """
-    parts = path.split(".")
-    names = {control.path: control.name for control in controls}
-    above = (".".join(parts[:end]) for end in range(len(parts), 0, -1))
-    return next((names[part] for part in above if part in names), path)
 
 
 class Choice(NamedTuple):

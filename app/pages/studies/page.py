@@ -20,7 +20,7 @@ from app.pages.charts import embedded
 from app.pages.form import FieldView
 from app.pages.query import LONGEST_QUERY, link, pairs_of, written_of
 from app.pages.results import NOT_RESULTS
-from app.pages.studies.controls import Choice, Control, Menu, Options, body_of, control_at
+from app.pages.studies.controls import Choice, Control, Menu, Options, body_of
 from app.pages.study_kinds import CASES, StudyLink, control_names
 from app.pages.study_links import Starter, StudyExample
 from app.pages.templating import examples_of, rendered
@@ -224,11 +224,17 @@ class StudyPage(ABC):
         return self.field(control.name, control.label, control.default, control.unit, control.options)
 
     def control_at(self, path: str) -> str:
-        """Return the name of the control that sets the part of the body at `path`."""
-        head, *rest = path.split(".")
-        if head == "request":
-            return ".".join(rest)
-        return control_at((OUTPUT, *self.declared()), path)
+        """Return the name of the control at which an error of the request body at `path` is shown.
+
+        If no control sets the part of the body at `path`, use the control that sets the nearest enclosing part. If no
+        control sets an enclosing part, return `path`. If several controls set the same part, use the last one.
+        """
+        parts = path.split(".")
+        if parts[0] == "request":
+            return ".".join(parts[1:])
+        names = {control.path: control.name for control in (OUTPUT, *self.declared())}
+        above = (".".join(parts[:end]) for end in range(len(parts), 0, -1))
+        return next((names[part] for part in above if part in names), path)
 
     def view(self, below: str) -> str:
         """Return the address of a file, a figure or the report of this page."""
