@@ -162,7 +162,8 @@ def _differences(lower: StageDraft, upper: StageDraft) -> None:
     for path in dict.fromkeys([*lower.fields, *upper.fields]):
         if path in OWN or path.startswith((GAP, SECOND)):
             continue
-        own, theirs = (draft.fields.get(path, _default(path)) for draft in (lower, upper))
+        usual = 0.0 if path.startswith("modifications.") and path.endswith("_um") else None
+        own, theirs = (draft.fields.get(path, usual) for draft in (lower, upper))
         if own is None:
             lower.put(path, theirs, *upper.origins.get(path, (upper.stage, None)))
             lower.missing.pop(path, None)
@@ -173,10 +174,6 @@ def _differences(lower: StageDraft, upper: StageDraft) -> None:
                 "value of the helix at the lower Z is used"
             )
             lower.reading.find("helices_differ", component, attribute, message)
-
-
-def _default(path: str) -> float | None:
-    return 0.0 if path.startswith("modifications.") and path.endswith("_um") else None
 
 
 def _same(own: object, theirs: object) -> bool:

@@ -46,7 +46,7 @@ def _of_working_flank(stage: StageDraft, place: int) -> list[Component]:
 
 def _working_side(stage: StageDraft, place: int) -> str | None:
     """Return which flank of a gear is loaded, "left" or "right"; return None if the loaded flank is not known."""
-    for data in stage.gear_data(place):
+    for data in stage.data_of(stage.gears[place]):
         if (side := stage.reading.text(data, "loaded_tooth_flank")) in {"left", "right"}:
             return side
     speed = stage.flow.speed.get(stage.shafts[place].id)

@@ -67,13 +67,6 @@ def _teeth(reading: Reading, stage: Component, gear: Component) -> int | None:
     return int(number)
 
 
-def _gear_data(reading: Reading, pair: Pair, gear: Component) -> Iterator[Component]:
-    for relation in reading.model.relations_of("stage_gear_data", "gear", gear.id):
-        data = reading.model.part(relation, "stage_gear_data")
-        if data is not None and relation.part("stage") in {pair.stage.id, None}:
-            yield data
-
-
 class StageDraft(Draft):
     """The draft of one mesh. The pinion is the driving gear, or the smaller gear if the driving gear is not known.
 
@@ -136,7 +129,7 @@ class StageDraft(Draft):
     def _driver(self) -> int | None:
         """Return the position of the driving gear in `pair`, or None if the driving gear is not known."""
         by_power, pair = self.flow.driver(self.pair), self.pair
-        stated = [place for place in (0, 1) for data in _gear_data(self.reading, pair, pair.gears[place])
+        stated = [place for place in (0, 1) for data in self.data_of(pair.gears[place])
                   if self.reading.flag(data, "is_driving_gear")]  # fmt: skip
         if by_power is None and len(stated) == 1:
             return stated[0]
@@ -159,9 +152,12 @@ class StageDraft(Draft):
         """The flanks of both gears, those of the pinion first."""
         return [flank for place in (0, 1) for flank in self.flanks(place).values()]
 
-    def gear_data(self, place: int) -> Iterator[Component]:
-        """Yield the components that hold data of the pinion (0) or the wheel (1) in this stage."""
-        return _gear_data(self.reading, self.pair, self.gears[place])
+    def data_of(self, gear: Component) -> Iterator[Component]:
+        """Yield the components that hold data of a gear in this stage."""
+        for relation in self.reading.model.relations_of("stage_gear_data", "gear", gear.id):
+            data = self.reading.model.part(relation, "stage_gear_data")
+            if data is not None and relation.part("stage") in {self.pair.stage.id, None}:
+                yield data
 
     def tool(self, place: int) -> Component | None:
         """Return the rack-shaped tool that cuts a gear, or None if the file does not state such a tool."""
@@ -555,7 +551,7 @@ class StageDraft(Draft):
     def _load(self) -> None:
         """Fill in the torque and the speed of the pinion."""
         load = self.load(self.flow)
-        own = (table.GEAR_TORQUE, self.gear_data(0)), (table.GEAR_SPEED, (self.gears[0],))
+        own = (table.GEAR_TORQUE, self.data_of(self.gears[0])), (table.GEAR_SPEED, (self.gears[0],))
         for (row, origins), what in zip(own, ("torque", "speed"), strict=True):
             values = self.values_of(origins, row)
             if row.field in load:

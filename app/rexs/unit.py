@@ -141,7 +141,7 @@ def _described_by(stage: StageDraft) -> Iterator[Component]:
     for place, shaft in enumerate(stage.shafts):
         for helix in helices:
             yield helix.gears[place]
-            yield from helix.gear_data(place)
+            yield from helix.data_of(helix.gears[place])
             for flank in helix.flanks(place).values():
                 yield flank
                 yield from modifications_of(helix.reading, flank)

@@ -55,7 +55,7 @@ class StartUp:
                 await unless_gone(http, waiting, lambda: WAIT_S)
             self.require(groups)
 
-    async def run(self, pool: Pool | None = None) -> None:
+    async def run(self, pool: Pool) -> None:
         """Compile all groups. If a process fails, compile once more in an empty folder.
 
         If compiled kernels cannot be kept, the workers of `pool` compile them, so that the groups wait for a worker.
@@ -65,7 +65,7 @@ class StartUp:
             logger.warning(
                 "tribodrive: compiled kernels cannot be kept; every worker compiles all of them at its start"
             )
-            while pool is not None and pool.alive <= 0:  # noqa: ASYNC110  the pool counts its workers; nothing else waits for them
+            while pool.alive <= 0:  # noqa: ASYNC110  the pool counts its workers; nothing else waits for them
                 await asyncio.sleep(1.0)
         elif not await self._compile(KERNEL_GROUPS):
             logger.warning("a process that compiled kernels died: all are compiled anew")
