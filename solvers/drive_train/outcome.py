@@ -76,7 +76,7 @@ def outcome_of(
         max_pressure=spread.pressure.max,
         max_line_load=spread.load.max_line_load,
         shaft_slope=slope,
-        total_slope=slope + face_slope(prepared.thermal.lead),
+        total_slope=slope + face_slope(prepared.thermals[number].lead),
         transmission_error_peak_to_peak=spread.transmission_error.peak_to_peak,
         shares=np.asarray(shares) / (mean if mean > 0.0 else 1.0),
         temperature=heat.temperature,

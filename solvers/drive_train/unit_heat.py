@@ -18,7 +18,9 @@ from solvers.arrays import FloatArray
 from solvers.drive_train.checks import NAMES, check_bearing_count
 from solvers.drive_train.elements import coupling_results, hubs_of
 from solvers.drive_train.gap.balance import Equilibrium
+from solvers.drive_train.gap.face_curves import face_mean
 from solvers.drive_train.gap.thermal_lead import gas_heat
+from solvers.drive_train.gap.warm_face import WarmFace, WarmFaces
 from solvers.drive_train.helices import on_face
 from solvers.drive_train.inputs import BearingFilm, DriveTrainInputs, JournalBearing, Shaft, UnitCoupling
 from solvers.drive_train.prepared import Prepared, prepare, settle
@@ -48,7 +50,8 @@ class WarmUnit:
     """A unit at the temperatures of its heat balance.
 
     `heat` is the result of the heat balance, and `balance` holds the inputs of the heat balance. Of a double-helical
-    unit `helices` are the balances in which both helices carry the load of one (Eq. D24); else empty.
+    unit `helices` are the balances in which both helices carry the load of one (Eq. D24); else empty. `face` holds the
+    temperatures along the face where they are asked for, and `faces` how they were found.
     """
 
     inputs: DriveTrainInputs
@@ -57,11 +60,20 @@ class WarmUnit:
     heat: Heat
     balance: HeatBalanceInputs
     helices: tuple[Heat, ...]
+    face: WarmFace | None = None
+    faces: WarmFaces | None = None
 
     @property
     def helix_flanks(self) -> list[Flanks | None]:
         """Flank temperatures of pinion and wheel on every face [K]; None where those of the unit hold."""
+        if self.face is not None:
+            return mean_flanks(self.face.flanks)
         return [(heat.pinion.flank, heat.wheel.flank) for heat in self.helices] or [None]
+
+
+def mean_flanks(flanks: FloatArray) -> list[Flanks | None]:
+    """Return the means of both flanks (gears, faces, stations) over every face [K]."""
+    return [(face_mean(pinion), face_mean(wheel)) for pinion, wheel in flanks.swapaxes(0, 1)]
 
 
 def asks_for_balance(inputs: DriveTrainInputs) -> bool:
@@ -100,6 +112,10 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
         if change < CLOSE:
             heat = heat_balance.solve(balance) if balance.cooling.band else heat
             heat = with_backlash_loss(heat, prepared.path.pair)
+            if inputs.face_heat != "uniform":
+                faces = warm_faces(warm, prepared, balance, heat)
+                face = faces.solve(equilibrium)
+                return WarmUnit(warm, face.prepared, face.equilibrium, heat, balance, (), face, faces)
             helices = tuple(heat_balance.solve(_of_helix(balance, heat, mesh)) for mesh in of_helices)
             return WarmUnit(warm, prepared, equilibrium, heat, balance, helices)
     message = (
@@ -107,6 +123,15 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
         f"{MOST_PASSES} passes. Give more oil or larger bearings"
     )
     raise NoSolution("heat_balance", message, {"change_k": change})
+
+
+def warm_faces(warm: DriveTrainInputs, prepared: Prepared, balance: HeatBalanceInputs, heat: Heat) -> WarmFaces:
+    """Return the faces of a unit in the heat balance that was solved."""
+    network = heat_balance.calibrated(heat_balance.network_of(balance), balance.cooling)
+    inlet, casing = balance.oil.inlet, [] if heat.casing is None else [heat.casing]
+    gears = [heat.pinion.flank, heat.pinion.body, heat.wheel.flank, heat.wheel.body, heat.mist]
+    rises = np.array([*gears, *(bearing.outlet for bearing in heat.bearings), *casing]) - inlet
+    return WarmFaces(warm, prepared, network, rises)
 
 
 def sized_flow(inputs: DriveTrainInputs) -> float | None:

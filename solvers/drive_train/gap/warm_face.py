@@ -1,0 +1,271 @@
+"""The warm face: the loaded end of the face heats itself, grows and carries more, while elastic rotors hold it.
+
+The temperatures along the face follow the line load (Eq. W1 to W3), the growth of the rotors follows the temperatures
+(W4), and the line load follows the growth (W7, D11). The unknown of the iteration is the relative line load w at the
+stations of all faces. The loop matrix L = -C P E says how much of a change of w comes back: E is the growth per load, P
+removes the mean over each face, C is the load per gap with mesh and shafts responding.
+"""
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import pi, sin
+
+import numpy as np
+
+from solvers.arrays import FloatArray
+from solvers.drive_train.gap.balance import Equilibrium
+from solvers.drive_train.gap.face_curves import face_mean
+from solvers.drive_train.gap.rotors import rotors_of
+from solvers.drive_train.gap.thermal_lead import EXPANSION, ThermalLead
+from solvers.drive_train.inputs import DriveTrainInputs
+from solvers.drive_train.prepared import Prepared, settle
+from solvers.errors import NoSolution
+from solvers.heat_balance.face import Along, Faces, rings_over_face
+from solvers.heat_balance.network import Network
+from solvers.heat_balance.rings import Response, response
+
+TOLERANCE = 1e-9  # of the relative line load
+MOST_STEPS = 25
+
+
+@dataclass(frozen=True, slots=True)
+class Amplification:
+    """How the loop multiplies misalignment: one gain and two amplifications per face; None if it is unstable (W9)."""
+
+    gain: tuple[float | None, ...]
+    skew: tuple[float | None, ...]
+    end: tuple[float | None, ...]
+    largest_eigenvalue: float
+
+
+@dataclass(frozen=True, slots=True)
+class WarmFace:
+    """A unit whose flanks have the temperatures of their own load.
+
+    `prepared` holds its gaps by heat, `leads` (faces, stations) the part of them that follows the own heat [m].
+    `flanks` and `bodies` (gears, faces, stations) [K].
+    """
+
+    prepared: Prepared
+    equilibrium: Equilibrium
+    along: Along
+    flanks: FloatArray
+    bodies: FloatArray
+    leads: FloatArray
+    amplification: Amplification
+
+
+@dataclass(frozen=True)
+class WarmFaces:
+    """The loop of load, temperatures and growth in a unit with a heat balance.
+
+    `rises` are those of the nodes of `network` [K]; `prepared` is the unit with the gaps by heat of uniform flanks and
+    bodies.
+    """
+
+    inputs: DriveTrainInputs
+    prepared: Prepared
+    network: Network
+    rises: FloatArray
+
+    def solve(self, start: Equilibrium) -> WarmFace:
+        """Find the load at which flanks and load are in balance, by Newton's iteration (Eq. W10).
+
+        Raises NoSolution: `heat_balance` if it does not converge; the errors of `settle` and of the temperatures.
+        """
+        equilibrium, along = start, None
+        load = self.relative_load(equilibrium)
+        for _ in range(MOST_STEPS):
+            along = self.faces.solve(self._at_nodes(load), along)
+            prepared = self._heated(along)
+            equilibrium = settle(self.inputs, prepared, equilibrium.gap)
+            change = self.relative_load(equilibrium) - load
+            if float(np.abs(change).max()) < TOLERANCE:
+                return WarmFace(
+                    prepared,
+                    equilibrium,
+                    along,
+                    *(self._absolute(rises) for rises in (along.flanks, along.bodies)),
+                    self._own_leads(along)[:, self._stations],
+                    self.amplification(equilibrium, along),
+                )
+            step = np.linalg.solve(np.eye(load.size) - self._loop(equilibrium, along), change.ravel())
+            load = load + step.reshape(load.shape)
+        message = "load and temperatures along the face do not settle. Give more oil or reduce the misalignment"
+        raise NoSolution("heat_balance", message, {"change_of_load": float(np.abs(change).max())})
+
+    def even(self, start: Equilibrium) -> tuple[Prepared, Equilibrium, FloatArray]:
+        """The unit whose flanks are heated as by an even load: what the loop adds is the difference from it.
+
+        Also return its flank temperatures (gears, faces, stations) [K].
+        """
+        prepared = self._heated(self._even)
+        return prepared, settle(self.inputs, prepared, start.gap), self._absolute(self._even.flanks)
+
+    def relative_load(self, equilibrium: Equilibrium) -> FloatArray:
+        """Line load at the stations over the mean of all faces (faces, stations); 1 without load."""
+        faces, count = len(self.prepared.meshes), self.prepared.unit.stations.size
+        force = equilibrium.loads[: faces * count].reshape(faces, count)
+        total = float(force.sum())
+        weights = np.full(count, 1.0 / (count - 1))
+        weights[[0, -1]] /= 2
+        return np.ones_like(force) if total <= 0.0 else force * faces / (weights * total)
+
+    @cached_property
+    def _even(self) -> Along:
+        return self.faces.solve(np.ones(self.faces.nodes))
+
+    @cached_property
+    def faces(self) -> Faces:
+        """The faces with their rotors."""
+        frame, unit, path = self.prepared.unit.frame, self.prepared.unit, self.prepared.path
+        rings = rings_over_face(unit.stations.size)
+        ends = tuple((face.start, face.start + face.width) for face in frame.faces)
+        along = np.linspace(0.0, path.plane.face_width, 2 * rings + 1)
+        return Faces(
+            network=self.network,
+            rises=self.rises,
+            rotors=rotors_of(self.inputs, path.pair, ends, rings),
+            normal_module=path.pair.inputs.normal_module,
+            position=np.array([along if face.direction > 0.0 else along[::-1] for face in frame.faces]),
+            jets=np.ones(len(ends) * along.size),
+        )
+
+    @cached_property
+    def _stations(self) -> FloatArray:
+        """Indices of the stations among the nodes of a face, from the end that meshes first."""
+        nodes, count = self.faces.position.shape[1], self.prepared.unit.stations.size
+        return np.arange(0, nodes, (nodes - 1) // (count - 1))
+
+    def _ordered(self, values: FloatArray) -> FloatArray:
+        """Values at the nodes (..., nodes of all faces) as (..., faces, nodes) from the ends that mesh first."""
+        rows = values.reshape(*values.shape[:-1], *self.faces.position.shape)
+        turned = [face.direction < 0.0 for face in self.prepared.unit.frame.faces]
+        return np.stack([rows[..., k, ::-1] if back else rows[..., k, :] for k, back in enumerate(turned)], axis=-2)
+
+    def _at_nodes(self, load: FloatArray) -> FloatArray:
+        """Return values that are linear between the stations (faces, stations) at the nodes in the order of Z."""
+        stations = self.prepared.unit.stations
+        rows = zip(self.faces.position, load, strict=True)
+        return np.concatenate([np.interp(position, stations, own) for position, own in rows])
+
+    def _absolute(self, rises: FloatArray) -> FloatArray:
+        """Temperatures at the stations (gears, faces, stations) [K]."""
+        return self.network.oil.inlet + self._ordered(rises)[..., self._stations]
+
+    @cached_property
+    def _levers(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """sin(alpha') and s - r_f sin(alpha') of pinion and wheel (Eq. W4) [1, m]."""
+        path = self.prepared.path
+        pair, arms = path.pair, (path.pitch_point, path.pair.line_of_action - path.pitch_point)
+        radii = (pair.pinion_working_radius, pair.wheel_working_radius)
+        pinion, wheel = (
+            (slope, arm - gear.root_radius * slope)
+            for arm, radius, gear in zip(arms, radii, (pair.pinion, pair.wheel), strict=True)
+            for slope in [sin(pair.working_pressure_angle - pi * pair.transverse_module / (4 * radius))]
+        )
+        return pinion, wheel
+
+    def _growth(self, gear: int, teeth: FloatArray, body: Response, sources: FloatArray) -> FloatArray:
+        """Growth e towards the mating flank at the nodes [m] (Eq. W4).
+
+        `teeth` (nodes, ...) is the mean temperature of flank and middle, `sources` those of the rotor, both as
+        differences from the temperature of the drawing [K].
+        """
+        slope, length = self._levers[gear]
+        directions = np.array([face.direction for face in self.prepared.unit.frame.faces])
+        along = np.repeat(directions, self.faces.position.shape[1])
+        tilt = (1.0 if gear == 0 else -1.0) * self.prepared.path.plane.tan_base_helix
+        axial = (body.axial @ sources).T * along
+        expansion = EXPANSION if self.inputs.effects.thermal else 0.0
+        return np.asarray(expansion * (slope * (body.radial @ sources) + length * teeth + tilt * axial.T))
+
+    def _own_leads(self, along: Along) -> FloatArray:
+        """Gaps by the own heat of the teeth (faces, nodes) [m], from the ends that mesh first (Eq. W5)."""
+        shift = self.network.oil.inlet - self.inputs.heat.reference
+        growth = sum(
+            self._growth(
+                gear,
+                (along.flanks[gear] + along.bodies[gear]) / 2 + shift,
+                self.faces.responses[gear],
+                self.faces.sources(gear, along.bodies[gear], along.mist) + shift,
+            )
+            for gear in (0, 1)
+        )
+        return self._gaps(np.asarray(growth))
+
+    @cached_property
+    def _gas_leads(self) -> FloatArray:
+        """Gaps by the profile of the pumped gas (faces, nodes) [m], from the ends that mesh first (Eq. W6)."""
+        thermal, growth = self.prepared.thermals[0], np.zeros(self.faces.nodes)
+        points = np.linspace(0.0, self.prepared.unit.stations[-1], thermal.pinion_rise.size)
+        for gear, rise in enumerate((thermal.pinion_rise, thermal.wheel_rise)):
+            own = np.interp(self.faces.position, points, rise).ravel()
+            if own.any():
+                insulated = response(self.faces.rotors[gear].geometry, None)
+                growth += self._growth(gear, own, insulated, np.append(own, np.zeros(4)))
+        return self._gaps(growth)
+
+    def _gaps(self, growth: FloatArray) -> FloatArray:
+        ordered = self._ordered(growth)
+        return np.array([face_mean(own) - own for own in ordered])
+
+    def _heated(self, along: Along) -> Prepared:
+        """Return the unit with the gaps and the flanks of these temperatures (Eq. W7)."""
+        before, own, even = self.prepared, self._own_leads(along), self._own_leads(self._even)
+        flanks = self._absolute(along.flanks)
+        points = np.linspace(0.0, before.unit.stations[-1], before.thermals[0].lead.size)
+        nodes = np.linspace(0.0, points[-1], own.shape[1])
+        thermals, meshes = list[ThermalLead](), []
+        for face, (mesh, thermal) in enumerate(zip(before.meshes, before.thermals, strict=True)):
+            lead, at_even = (np.interp(points, nodes, each[face] + self._gas_leads[face]) for each in (own, even))
+            thermals.append(replace(thermal, lead=lead, even_lead=at_even, flanks=flanks[:, face]))
+            meshes.append(replace(mesh, fixed=mesh.fixed - thermal.lead + lead))
+        return replace(before, meshes=tuple(meshes), thermals=tuple(thermals))
+
+    def _by_gap(self, equilibrium: Equilibrium) -> FloatArray:
+        """C: relative line load per gap at the stations of all faces [1/m] (Eq. W8)."""
+        force = float(equilibrium.loads[: self.prepared.unit.count].sum())
+        faces, count = len(self.prepared.meshes), self.prepared.unit.stations.size
+        weights = np.full(count, 1.0 / (count - 1))
+        weights[[0, -1]] /= 2
+        if force <= 0.0:
+            return np.zeros_like(equilibrium.by_gap)
+        return np.asarray(equilibrium.by_gap * faces / (force * np.tile(weights, faces))[:, None])
+
+    def _loop(self, equilibrium: Equilibrium, along: Along) -> FloatArray:
+        """L = -C P E: what comes back of a change of the relative line load (Eq. W8)."""
+        faces, count = len(self.prepared.meshes), self.prepared.unit.stations.size
+        units = np.eye(faces * count).reshape(-1, faces, count)
+        hats = np.array([self._at_nodes(unit) for unit in units]).T
+        flanks, bodies = self.faces.by_load(along, hats)
+        growth = np.zeros((self.faces.nodes, hats.shape[1]))
+        for gear in (0, 1):
+            sources = np.concatenate([bodies[gear], np.zeros((4, hats.shape[1]))])
+            growth += self._growth(
+                gear, (flanks[gear] + bodies[gear]) / 2, self.faces.responses[gear], sources
+            )
+        ordered = self._ordered(growth.T)[..., self._stations]  # (hats, faces, stations)
+        without_mean = ordered - (np.trapezoid(ordered, axis=-1) / (count - 1))[..., None]
+        return -self._by_gap(equilibrium) @ without_mean.reshape(hats.shape[1], -1).T
+
+    def amplification(self, equilibrium: Equilibrium, along: Along) -> Amplification:
+        """How the loop multiplies a skew of the gap of every face (Eq. W9)."""
+        faces, count = len(self.prepared.meshes), self.prepared.unit.stations.size
+        loop, by_gap = self._loop(equilibrium, along), self._by_gap(equilibrium)
+        largest = float(np.linalg.eigvals(loop).real.max())
+        skew = np.linspace(-0.5, 0.5, count)
+        gains, amplifications, ends = [], [], []
+        for face in range(faces):
+            here = slice(face * count, (face + 1) * count)
+            alone = by_gap[:, here] @ skew
+            both = np.linalg.solve(np.eye(loop.shape[0]) - loop, alone)
+            first, amplified = (float(np.trapezoid(skew * one[here])) for one in (alone, both))
+            largest_first = float(np.abs(alone[here]).max())
+            if largest >= 1.0 or first == 0.0:
+                gains, amplifications, ends = [*gains, None], [*amplifications, None], [*ends, None]
+                continue
+            amplifications.append(amplified / first)
+            gains.append(1 - first / amplified)
+            ends.append(float(np.abs(both[here]).max()) / largest_first)
+        return Amplification(tuple(gains), tuple(amplifications), tuple(ends), largest)
