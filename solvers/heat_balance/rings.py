@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_matrix, csc_matrix
 from scipy.sparse.linalg import SuperLU, splu
+from scipy.special import i0e, i1e
 
 from solvers.arrays import FloatArray
 
@@ -241,6 +242,17 @@ class Rings:
                 shape, slopes = _shapes(float(s), float(t))
                 scaled = np.stack([slopes[0] / width[:, None], slopes[1] / height[:, None]], axis=1)
                 yield shape, scaled, by_s * by_t * width * height
+
+
+def cylinder_growth(slenderness: float) -> float:
+    """Growth Phi of an endless cylinder whose surface has T = cos(k z), over that of free slices, at k R.
+
+    (1 + nu) x q (1 - q^2)/(x^2 (1 - q^2) - 2 (1 - nu) q^2) with x = k R and q = I_1(x)/I_0(x): Goodier's potential and
+    two solutions of the free elastic cylinder that free its surface.
+    """
+    x, q = slenderness, float(i1e(slenderness) / i0e(slenderness))
+    rest = 1 - q**2
+    return (1 + POISSON_RATIO) * x * q * rest / (x**2 * rest - 2 * (1 - POISSON_RATIO) * q**2)
 
 
 def line_shape(s: float) -> FloatArray:

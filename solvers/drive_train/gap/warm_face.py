@@ -249,6 +249,10 @@ class WarmFaces:
         without_mean = ordered - (np.trapezoid(ordered, axis=-1) / (count - 1))[..., None]
         return -self._by_gap(equilibrium) @ without_mean.reshape(hats.shape[1], -1).T
 
+    def amplified(self, equilibrium: Equilibrium, load: FloatArray) -> Amplification:
+        """How the loop of this network multiplies misalignment at a load that is given."""
+        return self.amplification(equilibrium, self.faces.solve(self._at_nodes(load)))
+
     def amplification(self, equilibrium: Equilibrium, along: Along) -> Amplification:
         """How the loop multiplies a skew of the gap of every face (Eq. W9)."""
         faces, count = len(self.prepared.meshes), self.prepared.unit.stations.size
