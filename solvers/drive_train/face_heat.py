@@ -22,7 +22,7 @@ def face_heats(warm: WarmUnit) -> tuple[FaceHeat, ...]:
         return ()
     closed = replace(warm.inputs, mesh=replace(warm.inputs.mesh, lubrication="closed_form", micropitting=None))
     prepared, even, flanks = loop.even(face.equilibrium)
-    stations, results = face.prepared.unit.stations, []
+    stations, load, results = face.prepared.unit.stations, loop.relative_load(face.equilibrium), []
     for k, own in enumerate(mean_flanks(flanks)):
         at_even = loaded_face(closed, prepared, even, k, own).result
         (pinion, wheel), lead = (
@@ -44,6 +44,8 @@ def face_heats(warm: WarmUnit) -> tuple[FaceHeat, ...]:
                 uniform_heat=UniformHeat(
                     at_even.load.face_load_factor, None if at_even.safety is None else at_even.safety.blok_flank
                 ),
+                jet_skew=loop.skew if warm.readings else None,
+                reading_deviation=frozen(loop.deviations(warm.readings, load)) if warm.readings else None,
                 balance_error=face.along.balance_error,
             )
         )

@@ -22,7 +22,7 @@ from solvers.drive_train.notices import (
 )
 from solvers.drive_train.prepared import prepare, settle
 from solvers.drive_train.results import Convergence, DriveTrainResult, HelixResult
-from solvers.drive_train.unit_heat import asks_for_balance, warm_unit, with_safety_band
+from solvers.drive_train.unit_heat import asks_for_balance, check_face_heat, warm_unit, with_safety_band
 from solvers.heat_balance import over_the_flow
 from solvers.heat_balance.results import FaceHeat
 from solvers.notices import Notice
@@ -41,6 +41,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
         warm = warm_unit(inputs, start)
         inputs, prepared, equilibrium = warm.inputs, warm.prepared, warm.equilibrium
     else:
+        check_face_heat(inputs)
         prepared = prepare(inputs)
         equilibrium = settle(inputs, prepared, start)
     system = prepared.unit

@@ -163,7 +163,7 @@ class UniformHeat:
     )
 
 
-@record(equation="W9")
+@record(kw_only=True, equation="W9")
 class FaceHeat:
     """Temperatures along a face that follow from the load, and what they do to the load."""
 
@@ -190,6 +190,24 @@ class FaceHeat:
         "largest eigenvalue of the loop", "λ_1", text="from 1 on one end of the face takes the load"
     )
     uniform_heat: UniformHeat = quantity("at even heat")
+    jet_skew: float | None = quantity(
+        "skew of the jets",
+        "j",
+        default=None,
+        text="that fits the readings along the face; stands for all that is unknown along it, sweeping oil included; "
+        "left out without readings",
+        left_out=True,
+        equation="heat-balance#the-warm-face",
+    )
+    reading_deviation: FloatArray | None = quantity(
+        "deviations from the readings",
+        "Δθ",
+        unit="k",
+        default=None,
+        text="calculated minus measured, in the order of the request; left out without readings",
+        left_out=True,
+        equation="heat-balance#the-warm-face",
+    )
     balance_error: float = quantity(
         "error of the balance along the face", text="difference over the heat supplied", equation="W3"
     )

@@ -11,21 +11,27 @@ from functools import cached_property
 from math import pi, sin
 
 import numpy as np
+from scipy.integrate import simpson
+from scipy.optimize import least_squares
 
 from solvers.arrays import FloatArray
 from solvers.drive_train.gap.balance import Equilibrium
 from solvers.drive_train.gap.face_curves import face_mean
 from solvers.drive_train.gap.rotors import rotors_of
 from solvers.drive_train.gap.thermal_lead import EXPANSION, ThermalLead
-from solvers.drive_train.inputs import DriveTrainInputs
+from solvers.drive_train.inputs import NAMES_OF_SHAFTS, DriveTrainInputs
 from solvers.drive_train.prepared import Prepared, settle
 from solvers.errors import NoSolution
+from solvers.heat_balance.calibration import LEAST_WETTING, MOST_WETTING, wetted
 from solvers.heat_balance.face import Along, Faces, rings_over_face
+from solvers.heat_balance.inputs import FaceReading
 from solvers.heat_balance.network import Network
 from solvers.heat_balance.rings import Response, response
+from solvers.heat_balance.solution import equilibrium as balance
 
 TOLERANCE = 1e-9  # of the relative line load
 MOST_STEPS = 25
+MOST_SKEW = 0.9
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,13 +66,14 @@ class WarmFaces:
     """The loop of load, temperatures and growth in a unit with a heat balance.
 
     `rises` are those of the nodes of `network` [K]; `prepared` is the unit with the gaps by heat of uniform flanks and
-    bodies.
+    bodies. The oil flow of the jets is `skew` larger at the end that meshes last than in the mean.
     """
 
     inputs: DriveTrainInputs
     prepared: Prepared
     network: Network
     rises: FloatArray
+    skew: float = 0.0
 
     def solve(self, start: Equilibrium) -> WarmFace:
         """Find the load at which flanks and load are in balance, by Newton's iteration (Eq. W10).
@@ -122,13 +129,16 @@ class WarmFaces:
         rings = rings_over_face(unit.stations.size)
         ends = tuple((face.start, face.start + face.width) for face in frame.faces)
         along = np.linspace(0.0, path.plane.face_width, 2 * rings + 1)
+        given = self.inputs.mesh.cooling.jet_distribution
+        jets = np.interp(along, given.position, given.weight) if given.position else np.ones_like(along)
+        jets = jets * along[-1] / simpson(jets, x=along) * (1.0 + self.skew * (2 * along / along[-1] - 1.0))
         return Faces(
             network=self.network,
             rises=self.rises,
             rotors=rotors_of(self.inputs, path.pair, ends, rings),
             normal_module=path.pair.inputs.normal_module,
             position=np.array([along if face.direction > 0.0 else along[::-1] for face in frame.faces]),
-            jets=np.ones(len(ends) * along.size),
+            jets=np.concatenate([jets if face.direction > 0.0 else jets[::-1] for face in frame.faces]),
         )
 
     @cached_property
@@ -248,6 +258,39 @@ class WarmFaces:
         ordered = self._ordered(growth.T)[..., self._stations]  # (hats, faces, stations)
         without_mean = ordered - (np.trapezoid(ordered, axis=-1) / (count - 1))[..., None]
         return -self._by_gap(equilibrium) @ without_mean.reshape(hats.shape[1], -1).T
+
+    def fit(self, readings: tuple[FaceReading, ...], equilibrium: Equilibrium) -> tuple[float, float]:
+        """Wetting share and skew of the jets that come closest to the readings, at the load that is there (H19)."""
+        load = self.relative_load(equilibrium)
+        skewed = len({reading.position for reading in readings}) > 1
+
+        def deviations(values: FloatArray) -> FloatArray:
+            network = wetted(self.network, float(values[0]))
+            rises = balance(network, self.rises).rises
+            there = replace(self, network=network, rises=rises, skew=float(values[1]) if skewed else 0.0)
+            return there.deviations(readings, load)
+
+        bounds = ([LEAST_WETTING, -MOST_SKEW], [MOST_WETTING, MOST_SKEW])
+        found = least_squares(
+            deviations, [self.network.spray.wetting_share, self.skew], bounds=bounds, x_scale=[0.1, 0.1], xtol=1e-9
+        )
+        return float(found.x[0]), float(found.x[1]) if skewed else 0.0
+
+    def deviations(self, readings: tuple[FaceReading, ...], load: FloatArray) -> FloatArray:
+        """Temperatures at the places of the readings under a relative line load, minus the readings [K]."""
+        along, stations = self.faces.solve(self._at_nodes(load)), self.prepared.unit.stations
+        rows = {"flank": self._absolute(along.flanks), "body": self._absolute(along.bodies)}
+        return np.array(
+            [
+                np.interp(
+                    one.position,
+                    stations,
+                    rows[one.place][NAMES_OF_SHAFTS.index(one.gear), min(one.helix, len(load)) - 1],
+                )
+                - one.temperature
+                for one in readings
+            ]
+        )
 
     def amplified(self, equilibrium: Equilibrium, load: FloatArray) -> Amplification:
         """How the loop of this network multiplies misalignment at a load that is given."""
