@@ -6,12 +6,14 @@ the bearings. Oil, mist, bearings and losses are those of the network. Temperatu
 [K], at the nodes of the rim: three per ring, quadratic between them.
 """
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property
 from math import pi
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
+from numpy.typing import NDArray
 
 from solvers.arrays import FloatArray
 from solvers.errors import NoSolution
@@ -22,6 +24,7 @@ from solvers.heat_balance.network import MIST, CooledGear, Network
 from solvers.heat_balance.rings import Exchange, Response, RotorGeometry, line_shape, response
 
 LEAST_RINGS = 20  # over each face
+LEAST_WIDTH = 0.05  # of a ring that is divided at a web, over that of the others
 TOLERANCE = 1e-10  # K, of the last Newton step
 MOST_STEPS = 30
 DIFFERENCE = 1e-3  # K, for the slope of the oil's cooling over the temperature
@@ -39,9 +42,16 @@ class Rotor:
     shaft_radii: tuple[float, float]
 
 
-def rings_over_face(stations: int) -> int:
-    """Return the least number of rings over a face, from 20 on, whose nodes include the stations."""
-    return next(rings for rings in range(LEAST_RINGS, 8 * stations) if 2 * rings % (stations - 1) == 0)
+def face_lines(width: float, stations: int, webs: Collection[float] = ()) -> tuple[float, ...]:
+    """Lines between the rings over a face, from 0 to its width [m]: at least 20 rings whose nodes include the stations.
+
+    The edges of webs are lines too, unless a line is close.
+    """
+    nodes = 1 if webs else 2  # a ring that is divided at a web has its middle node elsewhere
+    rings = next(rings for rings in range(LEAST_RINGS, 8 * stations) if nodes * rings % (stations - 1) == 0)
+    lines = np.linspace(0.0, width, rings + 1).tolist()
+    close = LEAST_WIDTH * width / rings
+    return tuple(sorted(lines + [web for web in webs if min(abs(web - line) for line in lines) > close]))
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,20 +110,21 @@ class Faces:
         return self.position.size
 
     @cached_property
-    def _elements(self) -> np.ndarray:
+    def _elements(self) -> NDArray[np.int64]:
         count = self.position.shape[1]
         first = np.concatenate([np.arange(0, count - 1, 2) + face * count for face in range(len(self.position))])
         return first[:, None] + np.arange(3)
 
     @cached_property
-    def _half(self) -> float:
-        """Half the width of a ring [m]."""
-        return float(np.ptp(self.position[0])) / (self.position.shape[1] - 1)
+    def _halves(self) -> FloatArray:
+        """Half the width of every ring [m]."""
+        ends = self.position.ravel()[self._elements[:, [0, 2]]]
+        return np.asarray(np.abs(ends[:, 1] - ends[:, 0]) / 2)
 
-    def _assembled(self, block: FloatArray) -> FloatArray:
+    def _assembled(self, block: FloatArray, factors: FloatArray) -> FloatArray:
         matrix = np.zeros((self.nodes, self.nodes))
-        for nodes in self._elements:
-            matrix[np.ix_(nodes, nodes)] += block
+        for nodes, factor in zip(self._elements, factors, strict=True):
+            matrix[np.ix_(nodes, nodes)] += factor * block
         return matrix
 
     @cached_property
@@ -121,7 +132,7 @@ class Faces:
         """Integrals of products of two shape functions [m]: a heat per length at the nodes becomes heat [W]."""
         points, weights = leggauss(3)
         shapes = np.array([line_shape(s) for s in points])
-        return self._assembled(self._half * np.einsum("g,gi,gj->ij", weights, shapes, shapes))
+        return self._assembled(np.einsum("g,gi,gj->ij", weights, shapes, shapes), self._halves)
 
     @cached_property
     def spread(self) -> FloatArray:
@@ -133,14 +144,14 @@ class Faces:
                 hats = np.zeros(3)
                 hats[low], hats[low + 1] = 1 - t, t
                 block += weight * np.outer(line_shape(low - 1 + t), hats)
-        return self._assembled(self._half * block)
+        return self._assembled(block, self._halves)
 
     @cached_property
     def conduction(self) -> FloatArray:
         """Integrals of products of two slopes of shape functions [1/m]."""
         points, weights = leggauss(2)
         slopes = np.array([[s - 0.5, -2 * s, s + 0.5] for s in points])
-        return self._assembled(np.einsum("g,gi,gj->ij", weights, slopes, slopes) / self._half)
+        return self._assembled(np.einsum("g,gi,gj->ij", weights, slopes, slopes), 1.0 / self._halves)
 
     def mean(self, values: FloatArray) -> float:
         """Mean over all faces of values at the nodes."""

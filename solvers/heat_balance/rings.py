@@ -9,6 +9,7 @@ geometry.
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property, lru_cache
+from itertools import pairwise
 from math import pi
 
 import numpy as np
@@ -44,15 +45,14 @@ class Cylinder:
 class RotorGeometry:
     """The body of a gear with its shaft, as far as heat flows: lengths in [m].
 
-    `faces` holds both ends of every toothed face. `journals` says whether the low and the high end of the rotor is at
-    the centre of a plain bearing, which holds the temperature there.
+    `faces` holds the lines between the rings of every toothed face, from end to end. `journals` says whether the low
+    and the high end of the rotor is at the centre of a plain bearing, which holds the temperature there.
     """
 
     cylinders: tuple[Cylinder, ...]
     root_radius: float
-    faces: tuple[tuple[float, float], ...]
+    faces: tuple[tuple[float, ...], ...]
     journals: tuple[bool, bool] = (False, False)
-    rings: int = 20  # over each face
 
 
 @dataclass(frozen=True, slots=True)
@@ -159,12 +159,12 @@ class Rings:
         def at(position: float) -> int:
             return int(np.argmin(np.abs(z - position)))
 
-        rim = np.concatenate([place[at(start) : at(end) + 1, root] for start, end in geometry.faces])
-        sides = (geometry.faces[0][0], -1), (geometry.faces[-1][1], 0)
+        rim = np.concatenate([place[at(face[0]) : at(face[-1]) + 1, root] for face in geometry.faces])
+        sides = (geometry.faces[0][0], -1), (geometry.faces[-1][-1], 0)
         gaps = [
             place[k : k + 3, root]
-            for (_, start), (end, _) in zip(geometry.faces[:-1], geometry.faces[1:], strict=True)
-            for k in range(at(start), at(end), 2)
+            for one, other in pairwise(geometry.faces)
+            for k in range(at(one[-1]), at(other[0]), 2)
         ]
         low, high = ((row[row >= 0] if held else np.zeros(0, np.int64)) for row, held in zip((place[0], place[-1]), geometry.journals, strict=True))
         return cls(
@@ -306,19 +306,17 @@ def _exposed(cells: NDArray[np.bool_], place: IntArray, line: int, outside: int)
 
 def _lines(geometry: RotorGeometry) -> tuple[FloatArray, FloatArray]:
     """Lines of constant z and r: at every step of the rotor, evenly over the faces, wider away from them."""
-    width = geometry.faces[0][1] - geometry.faces[0][0]
-    ring = width / geometry.rings
-    low, high = geometry.faces[0][0], geometry.faces[-1][1]
+    first = geometry.faces[0]
+    low, high, ring = first[0], geometry.faces[-1][-1], (first[-1] - first[0]) / (len(first) - 1)
     steps = {part.start for part in geometry.cylinders} | {part.end for part in geometry.cylinders}
     close = CLOSE * geometry.root_radius
-    on_faces = np.concatenate([np.linspace(*face, geometry.rings + 1) for face in geometry.faces])
-    webs = [step for step in steps if low < step < high]
-    between = [
-        np.linspace(start, end, max(2, round((end - start) / ring)) + 1)[1:-1]
-        for (_, start), (end, _) in zip(geometry.faces[:-1], geometry.faces[1:], strict=True)
-    ]
-    z = [*on_faces, *webs, *np.concatenate([*between, np.zeros(0)])]
-    z += _graded([*sorted((step for step in steps if step > high), reverse=False)], high, ring, close)
+    z = [line for face in geometry.faces for line in face]
+    for one, other in pairwise(geometry.faces):
+        start, end = one[-1], other[0]
+        between = [step for step in steps if start + close < step < end - close]
+        even = np.linspace(start, end, max(2, round((end - start) / ring)) + 1)[1:-1]
+        z += between + [line for line in even if all(abs(line - step) > close for step in between)]
+    z += _graded(sorted(step for step in steps if step > high), high, ring, close)
     z += [-step for step in _graded(sorted(-step for step in steps if step < low), -low, ring, close)]
     radii = {part.inner for part in geometry.cylinders} | {part.outer for part in geometry.cylinders}
     inner, outer = min(radii), geometry.root_radius

@@ -8,26 +8,33 @@ from solvers.heat_balance.face import Rotor
 from solvers.heat_balance.rings import Cylinder, RotorGeometry
 
 
+def web_edges(inputs: DriveTrainInputs) -> list[float]:
+    """Positions Z of the edges of all webs [m]."""
+    middle = inputs.face_start + inputs.mesh.distribution.gears.total_width / 2
+    bodies = [shaft.gear_body for shaft in inputs.shafts if shaft.gear_body is not None]
+    return [middle + sign * body.web_width / 2 for body in bodies for sign in (-1.0, 1.0)]
+
+
 def rotors_of(
-    inputs: DriveTrainInputs, pair: GearPair, faces: tuple[tuple[float, float], ...], rings: int
+    inputs: DriveTrainInputs, pair: GearPair, faces: tuple[tuple[float, ...], ...]
 ) -> tuple[Rotor, Rotor]:
-    """Return the rotors of pinion and wheel; `faces` are both ends of every face along Z [m]."""
+    """Return the rotors of pinion and wheel; `faces` are the lines between the rings of every face along Z [m]."""
     numbers = iter(range(4))
     bearings = [
         [next(numbers) if isinstance(bearing, JournalBearing) else None for bearing in shaft.bearings]
         for shaft in inputs.shafts
     ]
     pinion, wheel = (
-        _rotor(shaft, own, gear.root_radius, faces, rings)
+        _rotor(shaft, own, gear.root_radius, faces)
         for shaft, own, gear in zip(inputs.shafts, bearings, (pair.pinion, pair.wheel), strict=True)
     )
     return pinion, wheel
 
 
 def _rotor(
-    shaft: Shaft, numbers: list[int | None], root: float, faces: tuple[tuple[float, float], ...], rings: int
+    shaft: Shaft, numbers: list[int | None], root: float, faces: tuple[tuple[float, ...], ...]
 ) -> Rotor:
-    low, high = faces[0][0], faces[-1][1]
+    low, high = float(faces[0][0]), float(faces[-1][-1])
     ends, held = [shaft.start, shaft.end], list[int | None]([None, None])
     for bearing, number in zip(shaft.bearings, numbers, strict=True):
         place = bearing.position
@@ -53,7 +60,7 @@ def _rotor(
         sides.append(side)
         held[k] = held[k] if side else None
     return Rotor(
-        geometry=RotorGeometry((*sides[0][::-1], *body, *sides[1]), root, faces, (held[0] is not None, held[1] is not None), rings),
+        geometry=RotorGeometry((*sides[0][::-1], *body, *sides[1]), root, faces, (held[0] is not None, held[1] is not None)),
         bearings=(held[0], held[1]),
         shaft_radii=(sides[0][0].outer if sides[0] else 0.0, sides[1][0].outer if sides[1] else 0.0),
     )

@@ -11,19 +11,19 @@ from functools import cached_property
 from math import pi, sin
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.integrate import simpson
 from scipy.optimize import least_squares
 
 from solvers.arrays import FloatArray
 from solvers.drive_train.gap.balance import Equilibrium
-from solvers.drive_train.gap.face_curves import face_mean
-from solvers.drive_train.gap.rotors import rotors_of
+from solvers.drive_train.gap.rotors import rotors_of, web_edges
 from solvers.drive_train.gap.thermal_lead import EXPANSION, ThermalLead
 from solvers.drive_train.inputs import NAMES_OF_SHAFTS, DriveTrainInputs
 from solvers.drive_train.prepared import Prepared, settle
 from solvers.errors import NoSolution
 from solvers.heat_balance.calibration import LEAST_WETTING, MOST_WETTING, wetted
-from solvers.heat_balance.face import Along, Faces, rings_over_face
+from solvers.heat_balance.face import Along, Faces, face_lines
 from solvers.heat_balance.inputs import FaceReading
 from solvers.heat_balance.network import Network
 from solvers.heat_balance.rings import Response, response
@@ -31,6 +31,8 @@ from solvers.heat_balance.solution import equilibrium as balance
 
 TOLERANCE = 1e-9  # of the relative line load
 MOST_STEPS = 25
+LARGEST_STEP = 0.5  # of the relative line load, chosen
+HELD_ABOVE, NEAR = 0.8, 0.02  # largest eigenvalue from which steps are held back; change of the load below which none is
 MOST_SKEW = 0.9
 
 
@@ -87,19 +89,27 @@ class WarmFaces:
             prepared = self._heated(along)
             equilibrium = settle(self.inputs, prepared, equilibrium.gap)
             change = self.relative_load(equilibrium) - load
-            if float(np.abs(change).max()) < TOLERANCE:
+            largest = float(np.abs(change).max())
+            if largest < TOLERANCE:
                 return WarmFace(
                     prepared,
                     equilibrium,
                     along,
                     *(self._absolute(rises) for rises in (along.flanks, along.bodies)),
-                    self._own_leads(along)[:, self._stations],
+                    self._at_stations(self._own_leads(along)),
                     self.amplification(equilibrium, along),
                 )
-            step = np.linalg.solve(np.eye(load.size) - self._loop(equilibrium, along), change.ravel())
-            load = load + step.reshape(load.shape)
-        message = "load and temperatures along the face do not settle. Give more oil or reduce the misalignment"
-        raise NoSolution("heat_balance", message, {"change_of_load": float(np.abs(change).max())})
+            loop = self._loop(equilibrium, along)
+            # Far from the solution a loop whose gain is near or above 1 must not turn the step round.
+            held = max(0.0, float(np.linalg.eigvals(loop).real.max()) - HELD_ABOVE) * min(1.0, largest / NEAR)
+            step = np.linalg.solve((1.0 + held) * np.eye(load.size) - loop, change.ravel())
+            shortened = min(1.0, LARGEST_STEP / float(np.abs(step).max()))
+            load = np.maximum(load + shortened * step.reshape(load.shape), 0.0)
+        message = (
+            "load and temperatures along the face do not settle: one end takes the load and heats itself further. Give "
+            "more oil on the flanks, a stiffer wheel, or less friction"
+        )
+        raise NoSolution("heat_balance", message, {"change_of_load": largest})
 
     def even(self, start: Equilibrium) -> tuple[Prepared, Equilibrium, FloatArray]:
         """The unit whose flanks are heated as by an even load: what the loop adds is the difference from it.
@@ -126,26 +136,44 @@ class WarmFaces:
     def faces(self) -> Faces:
         """The faces with their rotors."""
         frame, unit, path = self.prepared.unit.frame, self.prepared.unit, self.prepared.path
-        rings = rings_over_face(unit.stations.size)
-        ends = tuple((face.start, face.start + face.width) for face in frame.faces)
-        along = np.linspace(0.0, path.plane.face_width, 2 * rings + 1)
-        given = self.inputs.mesh.cooling.jet_distribution
-        jets = np.interp(along, given.position, given.weight) if given.position else np.ones_like(along)
-        jets = jets * along[-1] / simpson(jets, x=along) * (1.0 + self.skew * (2 * along / along[-1] - 1.0))
+        width, webs = path.plane.face_width, web_edges(self.inputs)
+        on_face = [[web - face.start for web in webs if 0.0 < web - face.start < width] for face in frame.faces]
+        lines = [np.array(face_lines(width, unit.stations.size, own)) for own in on_face]
+        position = []
+        for face, own in zip(frame.faces, lines, strict=True):
+            nodes = np.sort(np.concatenate([own, (own[1:] + own[:-1]) / 2]))
+            position.append(nodes if face.direction > 0.0 else width - nodes)
         return Faces(
             network=self.network,
             rises=self.rises,
-            rotors=rotors_of(self.inputs, path.pair, ends, rings),
+            rotors=rotors_of(
+                self.inputs,
+                path.pair,
+                tuple(tuple(face.start + own) for face, own in zip(frame.faces, lines, strict=True)),
+            ),
             normal_module=path.pair.inputs.normal_module,
-            position=np.array([along if face.direction > 0.0 else along[::-1] for face in frame.faces]),
-            jets=np.concatenate([jets if face.direction > 0.0 else jets[::-1] for face in frame.faces]),
+            position=np.array(position),
+            jets=np.concatenate([self._jets(own) for own in position]),
+        )
+
+    def _jets(self, position: FloatArray) -> FloatArray:
+        """Oil flow over its mean at positions of a face [m]."""
+        given, width = self.inputs.mesh.cooling.jet_distribution, self.prepared.path.plane.face_width
+        jets = np.interp(position, given.position, given.weight) if given.position else np.ones_like(position)
+        return np.asarray(
+            jets * width / abs(simpson(jets, x=position)) * (1.0 + self.skew * (2 * position / width - 1.0))
         )
 
     @cached_property
-    def _stations(self) -> FloatArray:
-        """Indices of the stations among the nodes of a face, from the end that meshes first."""
-        nodes, count = self.faces.position.shape[1], self.prepared.unit.stations.size
-        return np.arange(0, nodes, (nodes - 1) // (count - 1))
+    def _stations(self) -> NDArray[np.int64]:
+        """Indices of the stations among the nodes of every face (faces, stations), from the ends that mesh first."""
+        stations = self.prepared.unit.stations
+        nodes = self._ordered(self.faces.position.ravel())
+        return np.array([[int(np.argmin(np.abs(own - station))) for station in stations] for own in nodes])
+
+    def _at_stations(self, values: FloatArray) -> FloatArray:
+        """Pick the values at the stations (..., faces, stations) of values at the nodes (..., faces, nodes)."""
+        return np.take_along_axis(values, np.broadcast_to(self._stations, (*values.shape[:-1], self._stations.shape[1])), -1)
 
     def _ordered(self, values: FloatArray) -> FloatArray:
         """Values at the nodes (..., nodes of all faces) as (..., faces, nodes) from the ends that mesh first."""
@@ -161,7 +189,7 @@ class WarmFaces:
 
     def _absolute(self, rises: FloatArray) -> FloatArray:
         """Temperatures at the stations (gears, faces, stations) [K]."""
-        return self.network.oil.inlet + self._ordered(rises)[..., self._stations]
+        return self.network.oil.inlet + self._at_stations(self._ordered(rises))
 
     @cached_property
     def _levers(self) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -217,18 +245,19 @@ class WarmFaces:
         return self._gaps(growth)
 
     def _gaps(self, growth: FloatArray) -> FloatArray:
-        ordered = self._ordered(growth)
-        return np.array([face_mean(own) - own for own in ordered])
+        position = self._ordered(self.faces.position.ravel())
+        pairs = zip(self._ordered(growth), position, strict=True)
+        return np.array([np.trapezoid(own, y) / np.ptp(y) - own for own, y in pairs])
 
     def _heated(self, along: Along) -> Prepared:
         """Return the unit with the gaps and the flanks of these temperatures (Eq. W7)."""
         before, own, even = self.prepared, self._own_leads(along), self._own_leads(self._even)
         flanks = self._absolute(along.flanks)
         points = np.linspace(0.0, before.unit.stations[-1], before.thermals[0].lead.size)
-        nodes = np.linspace(0.0, points[-1], own.shape[1])
+        nodes = self._ordered(self.faces.position.ravel())
         thermals, meshes = list[ThermalLead](), []
         for face, (mesh, thermal) in enumerate(zip(before.meshes, before.thermals, strict=True)):
-            lead, at_even = (np.interp(points, nodes, each[face] + self._gas_leads[face]) for each in (own, even))
+            lead, at_even = (np.interp(points, nodes[face], each[face] + self._gas_leads[face]) for each in (own, even))
             thermals.append(replace(thermal, lead=lead, even_lead=at_even, flanks=flanks[:, face]))
             meshes.append(replace(mesh, fixed=mesh.fixed - thermal.lead + lead))
         return replace(before, meshes=tuple(meshes), thermals=tuple(thermals))
@@ -255,7 +284,7 @@ class WarmFaces:
             growth += self._growth(
                 gear, (flanks[gear] + bodies[gear]) / 2, self.faces.responses[gear], sources
             )
-        ordered = self._ordered(growth.T)[..., self._stations]  # (hats, faces, stations)
+        ordered = self._at_stations(self._ordered(growth.T))  # (hats, faces, stations)
         without_mean = ordered - (np.trapezoid(ordered, axis=-1) / (count - 1))[..., None]
         return -self._by_gap(equilibrium) @ without_mean.reshape(hats.shape[1], -1).T
 
