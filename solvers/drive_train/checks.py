@@ -96,7 +96,10 @@ def _check_jets(inputs: DriveTrainInputs) -> None:
         message = "give rising positions, and one weight for each"
         raise InvalidInput("jet_distribution", message, field)
     readings = [reading.position for reading in inputs.mesh.cooling.measured.face]
-    for values, code, place in ((position, "jet_distribution", field), (readings, "outside", "mesh.cooling.measured.face")):
+    for values, code, place in (
+        (position, "jet_distribution", field),
+        (readings, "outside", "mesh.cooling.measured.face"),
+    ):
         if any(value > width * (1 + ROUNDING) for value in values):
             message = f"a position lies outside the face, which is {1e3 * width:.4g} mm wide"
             raise InvalidInput(code, message, place)

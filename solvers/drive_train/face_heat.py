@@ -42,7 +42,11 @@ def face_heats(warm: WarmUnit) -> tuple[FaceHeat, ...]:
                 end_amplification=face.amplification.end[k],
                 largest_eigenvalue=face.amplification.largest_eigenvalue,
                 uniform_heat=UniformHeat(
-                    at_even.load.face_load_factor, None if at_even.safety is None else at_even.safety.blok_flank
+                    face_load_factor=at_even.load.face_load_factor,
+                    blok_flank=None if at_even.safety is None else at_even.safety.blok_flank,
+                    pinion_flank=frozen(flanks[0, k]),
+                    wheel_flank=frozen(flanks[1, k]),
+                    line_force=at_even.misalignment.curves.line_force,
                 ),
                 jet_skew=loop.skew if warm.readings else None,
                 reading_deviation=frozen(loop.deviations(warm.readings, load)) if warm.readings else None,

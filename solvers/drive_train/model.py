@@ -7,11 +7,11 @@ from functools import partial
 from solvers.arrays import FloatArray
 from solvers.drive_train.derived import derived
 from solvers.drive_train.elements import coupling_results, hubs_of, shaft_results, warnings_of
+from solvers.drive_train.face_heat import face_heats, with_amplification_band
 from solvers.drive_train.gap.thermal_lead import gas_heat
 from solvers.drive_train.helices import axial_balance, decisive, loaded_face
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.losses import force_balance, train_losses
-from solvers.drive_train.face_heat import face_heats, with_amplification_band
 from solvers.drive_train.notices import (
     coupling_notices,
     face_heat_notices,

@@ -54,7 +54,8 @@ class WarmUnit:
 
     `heat` is the result of the heat balance, and `balance` holds the inputs of the heat balance. Of a double-helical
     unit `helices` are the balances in which both helices carry the load of one (Eq. D24); else empty. `face` holds the
-    temperatures along the face where they are asked for, and `faces` how they were found. `readings` were measured there.
+    temperatures along the face where they are asked for, `faces` how they were found, and `readings` what was measured
+    there.
     """
 
     inputs: DriveTrainInputs
@@ -98,9 +99,7 @@ def asks_for_balance(inputs: DriveTrainInputs) -> bool:
 def check_face_heat(inputs: DriveTrainInputs) -> None:
     """Refuse (`face_heat_needs_balance`) the profile along the face of a unit without a heat balance."""
     if inputs.face_heat == "profile":
-        message = (
-            "the profile along the face follows from the heat balance; choose it as bulk method or take uniform"
-        )
+        message = "the profile along the face follows from the heat balance; choose it as bulk method or take uniform"
         raise InvalidInput("face_heat_needs_balance", message, "face_heat")
 
 

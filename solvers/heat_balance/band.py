@@ -73,9 +73,7 @@ def flank_cases(network: Network, cooling: Cooling, nominal: FloatArray) -> tupl
     return tuple((inlet + float(one[FLANKS[0]]), inlet + float(one[FLANKS[1]])) for one in rises)
 
 
-def end_networks(
-    network: Network, cooling: Cooling, cases: tuple[tuple[float, float], ...]
-) -> tuple[Network, Network]:
+def end_networks(network: Network, cooling: Cooling, cases: tuple[tuple[float, float], ...]) -> tuple[Network, Network]:
     """Networks of the corners with the coolest and with the hottest flanks of `flank_cases`."""
     means, tried = [sum(case) for case in cases], corners(network, cooling)
     ends = (means.index(min(means)), means.index(max(means)))

@@ -93,7 +93,10 @@ class Faces:
     def responses(self) -> tuple[Response, Response]:
         """How the bodies of pinion and wheel respond to the temperatures of their rims."""
         pinion, wheel = (
-            response(rotor.geometry, Exchange(gear.conductivity, self._disc(gear), self._rim(gear) if rotor.geometry.faces[1:] else 0.0))
+            response(
+                rotor.geometry,
+                Exchange(gear.conductivity, self._disc(gear), self._rim(gear) if rotor.geometry.faces[1:] else 0.0),
+            )
             for rotor, gear in zip(self.rotors, self.network.gears, strict=True)
         )
         return pinion, wheel

@@ -161,6 +161,20 @@ class UniformHeat:
     blok_flank: float | None = quantity(
         "safety factor at even heat", "S_B,0", text="on the flank by Blok; null without a scuffing temperature"
     )
+    pinion_flank: FloatArray = quantity(
+        "flank of the pinion at even heat", "θ_F1,0", OWN, unit="c", text="at the same positions", detail="curves"
+    )
+    wheel_flank: FloatArray = quantity(
+        "flank of the wheel at even heat", "θ_F2,0", OWN, unit="c", text="at the same positions", detail="curves"
+    )
+    line_force: FloatArray = quantity(
+        "transverse force per face at even heat",
+        "q_0",
+        unit="n_per_mm",
+        text="at the same positions",
+        detail="curves",
+        equation="D11",
+    )
 
 
 @record(kw_only=True, equation="W9")
@@ -173,7 +187,13 @@ class FaceHeat:
     pinion: GearAlongFace = quantity("pinion along the face", detail="curves")
     wheel: GearAlongFace = quantity("wheel along the face", detail="curves")
     lead: FloatArray = quantity(
-        "gap by the own heat", "g_own", unit="um", text="of teeth and rotors", axis="position", equation="W5", detail="curves"
+        "gap by the own heat",
+        "g_own",
+        unit="um",
+        text="of teeth and rotors",
+        axis="position",
+        equation="W5",
+        detail="curves",
     )
     lead_slope: float = quantity("slope by the own heat", "f_own", unit="um", equation="W5")
     lead_crown: float = quantity("crown by the own heat", "C_own", unit="um", equation="W5")

@@ -166,7 +166,10 @@ class Rings:
             for one, other in pairwise(geometry.faces)
             for k in range(at(one[-1]), at(other[0]), 2)
         ]
-        low, high = ((row[row >= 0] if held else np.zeros(0, np.int64)) for row, held in zip((place[0], place[-1]), geometry.journals, strict=True))
+        low, high = (
+            (row[row >= 0] if held else np.zeros(0, np.int64))
+            for row, held in zip((place[0], place[-1]), geometry.journals, strict=True)
+        )
         return cls(
             z=np.repeat(z, r.size)[used],
             r=np.tile(r, z.size)[used],
@@ -321,7 +324,7 @@ def _lines(geometry: RotorGeometry) -> tuple[FloatArray, FloatArray]:
     radii = {part.inner for part in geometry.cylinders} | {part.outer for part in geometry.cylinders}
     inner, outer = min(radii), geometry.root_radius
     even = inner + (outer - inner) * (1 - np.linspace(1, 0, RADIAL_RINGS + 1) ** RIM_CLUSTER)
-    return np.unique(z), _merged(sorted(radii), even, close)
+    return np.unique(z), _merged(sorted(radii), even)
 
 
 def _graded(steps: list[float], start: float, ring: float, close: float) -> list[float]:
@@ -339,7 +342,7 @@ def _graded(steps: list[float], start: float, ring: float, close: float) -> list
     return lines
 
 
-def _merged(kept: list[float], even: FloatArray, close: float) -> FloatArray:
+def _merged(kept: list[float], even: FloatArray) -> FloatArray:
     """All steps, and of the even lines those that are not too close to a step."""
     spacing = np.diff(even).mean() / 3
     lines = list(kept)

@@ -15,9 +15,7 @@ def web_edges(inputs: DriveTrainInputs) -> list[float]:
     return [middle + sign * body.web_width / 2 for body in bodies for sign in (-1.0, 1.0)]
 
 
-def rotors_of(
-    inputs: DriveTrainInputs, pair: GearPair, faces: tuple[tuple[float, ...], ...]
-) -> tuple[Rotor, Rotor]:
+def rotors_of(inputs: DriveTrainInputs, pair: GearPair, faces: tuple[tuple[float, ...], ...]) -> tuple[Rotor, Rotor]:
     """Return the rotors of pinion and wheel; `faces` are the lines between the rings of every face along Z [m]."""
     numbers = iter(range(4))
     bearings = [
@@ -31,9 +29,7 @@ def rotors_of(
     return pinion, wheel
 
 
-def _rotor(
-    shaft: Shaft, numbers: list[int | None], root: float, faces: tuple[tuple[float, ...], ...]
-) -> Rotor:
+def _rotor(shaft: Shaft, numbers: list[int | None], root: float, faces: tuple[tuple[float, ...], ...]) -> Rotor:
     low, high = float(faces[0][0]), float(faces[-1][-1])
     ends, held = [shaft.start, shaft.end], list[int | None]([None, None])
     for bearing, number in zip(shaft.bearings, numbers, strict=True):
@@ -60,7 +56,9 @@ def _rotor(
         sides.append(side)
         held[k] = held[k] if side else None
     return Rotor(
-        geometry=RotorGeometry((*sides[0][::-1], *body, *sides[1]), root, faces, (held[0] is not None, held[1] is not None)),
+        geometry=RotorGeometry(
+            (*sides[0][::-1], *body, *sides[1]), root, faces, (held[0] is not None, held[1] is not None)
+        ),
         bearings=(held[0], held[1]),
         shaft_radii=(sides[0][0].outer if sides[0] else 0.0, sides[1][0].outer if sides[1] else 0.0),
     )
@@ -70,9 +68,7 @@ def _sections(shaft: Shaft, root: float) -> Iterator[Cylinder]:
     """Yield the sections of a shaft in the order of Z, cut at the root circle."""
     start = shaft.start
     for section in shaft.sections:
-        yield Cylinder(
-            start, start + section.length, section.inner_diameter / 2, min(section.outer_diameter / 2, root)
-        )
+        yield Cylinder(start, start + section.length, section.inner_diameter / 2, min(section.outer_diameter / 2, root))
         start += section.length
 
 

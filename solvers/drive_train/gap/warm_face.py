@@ -32,7 +32,10 @@ from solvers.heat_balance.solution import equilibrium as balance
 TOLERANCE = 1e-9  # of the relative line load
 MOST_STEPS = 25
 LARGEST_STEP = 0.5  # of the relative line load, chosen
-HELD_ABOVE, NEAR = 0.8, 0.02  # largest eigenvalue from which steps are held back; change of the load below which none is
+HELD_ABOVE, NEAR = (
+    0.8,
+    0.02,
+)  # largest eigenvalue from which steps are held back; change of the load below which none is
 MOST_SKEW = 0.9
 
 
@@ -85,7 +88,7 @@ class WarmFaces:
         equilibrium, along = start, None
         load = self.relative_load(equilibrium)
         for _ in range(MOST_STEPS):
-            along = self.faces.solve(self._at_nodes(load), along)
+            along = self.faces.solve(self.at_nodes(load), along)
             prepared = self._heated(along)
             equilibrium = settle(self.inputs, prepared, equilibrium.gap)
             change = self.relative_load(equilibrium) - load
@@ -99,7 +102,7 @@ class WarmFaces:
                     self._at_stations(self._own_leads(along)),
                     self.amplification(equilibrium, along),
                 )
-            loop = self._loop(equilibrium, along)
+            loop = self.loop(equilibrium, along)
             # Far from the solution a loop whose gain is near or above 1 must not turn the step round.
             held = max(0.0, float(np.linalg.eigvals(loop).real.max()) - HELD_ABOVE) * min(1.0, largest / NEAR)
             step = np.linalg.solve((1.0 + held) * np.eye(load.size) - loop, change.ravel())
@@ -110,6 +113,11 @@ class WarmFaces:
             "more oil on the flanks, a stiffer wheel, or less friction"
         )
         raise NoSolution("heat_balance", message, {"change_of_load": largest})
+
+    def load_after(self, load: FloatArray, start: Equilibrium) -> FloatArray:
+        """Relative line load (faces, stations) that the temperatures of a load bring about (Eq. W1 to W7)."""
+        prepared = self._heated(self.faces.solve(self.at_nodes(load)))
+        return self.relative_load(settle(self.inputs, prepared, start.gap))
 
     def even(self, start: Equilibrium) -> tuple[Prepared, Equilibrium, FloatArray]:
         """The unit whose flanks are heated as by an even load: what the loop adds is the difference from it.
@@ -168,20 +176,22 @@ class WarmFaces:
     def _stations(self) -> NDArray[np.int64]:
         """Indices of the stations among the nodes of every face (faces, stations), from the ends that mesh first."""
         stations = self.prepared.unit.stations
-        nodes = self._ordered(self.faces.position.ravel())
+        nodes = self.ordered(self.faces.position.ravel())
         return np.array([[int(np.argmin(np.abs(own - station))) for station in stations] for own in nodes])
 
     def _at_stations(self, values: FloatArray) -> FloatArray:
         """Pick the values at the stations (..., faces, stations) of values at the nodes (..., faces, nodes)."""
-        return np.take_along_axis(values, np.broadcast_to(self._stations, (*values.shape[:-1], self._stations.shape[1])), -1)
+        return np.take_along_axis(
+            values, np.broadcast_to(self._stations, (*values.shape[:-1], self._stations.shape[1])), -1
+        )
 
-    def _ordered(self, values: FloatArray) -> FloatArray:
+    def ordered(self, values: FloatArray) -> FloatArray:
         """Values at the nodes (..., nodes of all faces) as (..., faces, nodes) from the ends that mesh first."""
         rows = values.reshape(*values.shape[:-1], *self.faces.position.shape)
         turned = [face.direction < 0.0 for face in self.prepared.unit.frame.faces]
         return np.stack([rows[..., k, ::-1] if back else rows[..., k, :] for k, back in enumerate(turned)], axis=-2)
 
-    def _at_nodes(self, load: FloatArray) -> FloatArray:
+    def at_nodes(self, load: FloatArray) -> FloatArray:
         """Return values that are linear between the stations (faces, stations) at the nodes in the order of Z."""
         stations = self.prepared.unit.stations
         rows = zip(self.faces.position, load, strict=True)
@@ -189,10 +199,10 @@ class WarmFaces:
 
     def _absolute(self, rises: FloatArray) -> FloatArray:
         """Temperatures at the stations (gears, faces, stations) [K]."""
-        return self.network.oil.inlet + self._at_stations(self._ordered(rises))
+        return self.network.oil.inlet + self._at_stations(self.ordered(rises))
 
     @cached_property
-    def _levers(self) -> tuple[tuple[float, float], tuple[float, float]]:
+    def levers(self) -> tuple[tuple[float, float], tuple[float, float]]:
         """sin(alpha') and s - r_f sin(alpha') of pinion and wheel (Eq. W4) [1, m]."""
         path = self.prepared.path
         pair, arms = path.pair, (path.pitch_point, path.pair.line_of_action - path.pitch_point)
@@ -204,13 +214,13 @@ class WarmFaces:
         )
         return pinion, wheel
 
-    def _growth(self, gear: int, teeth: FloatArray, body: Response, sources: FloatArray) -> FloatArray:
+    def growth(self, gear: int, teeth: FloatArray, body: Response, sources: FloatArray) -> FloatArray:
         """Growth e towards the mating flank at the nodes [m] (Eq. W4).
 
         `teeth` (nodes, ...) is the mean temperature of flank and middle, `sources` those of the rotor, both as
         differences from the temperature of the drawing [K].
         """
-        slope, length = self._levers[gear]
+        slope, length = self.levers[gear]
         directions = np.array([face.direction for face in self.prepared.unit.frame.faces])
         along = np.repeat(directions, self.faces.position.shape[1])
         tilt = (1.0 if gear == 0 else -1.0) * self.prepared.path.plane.tan_base_helix
@@ -222,7 +232,7 @@ class WarmFaces:
         """Gaps by the own heat of the teeth (faces, nodes) [m], from the ends that mesh first (Eq. W5)."""
         shift = self.network.oil.inlet - self.inputs.heat.reference
         growth = sum(
-            self._growth(
+            self.growth(
                 gear,
                 (along.flanks[gear] + along.bodies[gear]) / 2 + shift,
                 self.faces.responses[gear],
@@ -230,10 +240,10 @@ class WarmFaces:
             )
             for gear in (0, 1)
         )
-        return self._gaps(np.asarray(growth))
+        return self.gaps(np.asarray(growth))
 
     @cached_property
-    def _gas_leads(self) -> FloatArray:
+    def gas_leads(self) -> FloatArray:
         """Gaps by the profile of the pumped gas (faces, nodes) [m], from the ends that mesh first (Eq. W6)."""
         thermal, growth = self.prepared.thermals[0], np.zeros(self.faces.nodes)
         points = np.linspace(0.0, self.prepared.unit.stations[-1], thermal.pinion_rise.size)
@@ -241,12 +251,12 @@ class WarmFaces:
             own = np.interp(self.faces.position, points, rise).ravel()
             if own.any():
                 insulated = response(self.faces.rotors[gear].geometry, None)
-                growth += self._growth(gear, own, insulated, np.append(own, np.zeros(4)))
-        return self._gaps(growth)
+                growth += self.growth(gear, own, insulated, np.append(own, np.zeros(4)))
+        return self.gaps(growth)
 
-    def _gaps(self, growth: FloatArray) -> FloatArray:
-        position = self._ordered(self.faces.position.ravel())
-        pairs = zip(self._ordered(growth), position, strict=True)
+    def gaps(self, growth: FloatArray) -> FloatArray:
+        position = self.ordered(self.faces.position.ravel())
+        pairs = zip(self.ordered(growth), position, strict=True)
         return np.array([np.trapezoid(own, y) / np.ptp(y) - own for own, y in pairs])
 
     def _heated(self, along: Along) -> Prepared:
@@ -254,15 +264,15 @@ class WarmFaces:
         before, own, even = self.prepared, self._own_leads(along), self._own_leads(self._even)
         flanks = self._absolute(along.flanks)
         points = np.linspace(0.0, before.unit.stations[-1], before.thermals[0].lead.size)
-        nodes = self._ordered(self.faces.position.ravel())
+        nodes = self.ordered(self.faces.position.ravel())
         thermals, meshes = list[ThermalLead](), []
         for face, (mesh, thermal) in enumerate(zip(before.meshes, before.thermals, strict=True)):
-            lead, at_even = (np.interp(points, nodes[face], each[face] + self._gas_leads[face]) for each in (own, even))
+            lead, at_even = (np.interp(points, nodes[face], each[face] + self.gas_leads[face]) for each in (own, even))
             thermals.append(replace(thermal, lead=lead, even_lead=at_even, flanks=flanks[:, face]))
             meshes.append(replace(mesh, fixed=mesh.fixed - thermal.lead + lead))
         return replace(before, meshes=tuple(meshes), thermals=tuple(thermals))
 
-    def _by_gap(self, equilibrium: Equilibrium) -> FloatArray:
+    def by_gap(self, equilibrium: Equilibrium) -> FloatArray:
         """C: relative line load per gap at the stations of all faces [1/m] (Eq. W8)."""
         force = float(equilibrium.loads[: self.prepared.unit.count].sum())
         faces, count = len(self.prepared.meshes), self.prepared.unit.stations.size
@@ -272,21 +282,19 @@ class WarmFaces:
             return np.zeros_like(equilibrium.by_gap)
         return np.asarray(equilibrium.by_gap * faces / (force * np.tile(weights, faces))[:, None])
 
-    def _loop(self, equilibrium: Equilibrium, along: Along) -> FloatArray:
+    def loop(self, equilibrium: Equilibrium, along: Along) -> FloatArray:
         """L = -C P E: what comes back of a change of the relative line load (Eq. W8)."""
         faces, count = len(self.prepared.meshes), self.prepared.unit.stations.size
         units = np.eye(faces * count).reshape(-1, faces, count)
-        hats = np.array([self._at_nodes(unit) for unit in units]).T
+        hats = np.array([self.at_nodes(unit) for unit in units]).T
         flanks, bodies = self.faces.by_load(along, hats)
         growth = np.zeros((self.faces.nodes, hats.shape[1]))
         for gear in (0, 1):
             sources = np.concatenate([bodies[gear], np.zeros((4, hats.shape[1]))])
-            growth += self._growth(
-                gear, (flanks[gear] + bodies[gear]) / 2, self.faces.responses[gear], sources
-            )
-        ordered = self._at_stations(self._ordered(growth.T))  # (hats, faces, stations)
+            growth += self.growth(gear, (flanks[gear] + bodies[gear]) / 2, self.faces.responses[gear], sources)
+        ordered = self._at_stations(self.ordered(growth.T))  # (hats, faces, stations)
         without_mean = ordered - (np.trapezoid(ordered, axis=-1) / (count - 1))[..., None]
-        return -self._by_gap(equilibrium) @ without_mean.reshape(hats.shape[1], -1).T
+        return -self.by_gap(equilibrium) @ without_mean.reshape(hats.shape[1], -1).T
 
     def fit(self, readings: tuple[FaceReading, ...], equilibrium: Equilibrium) -> tuple[float, float]:
         """Wetting share and skew of the jets that come closest to the readings, at the load that is there (H19)."""
@@ -307,7 +315,7 @@ class WarmFaces:
 
     def deviations(self, readings: tuple[FaceReading, ...], load: FloatArray) -> FloatArray:
         """Temperatures at the places of the readings under a relative line load, minus the readings [K]."""
-        along, stations = self.faces.solve(self._at_nodes(load)), self.prepared.unit.stations
+        along, stations = self.faces.solve(self.at_nodes(load)), self.prepared.unit.stations
         rows = {"flank": self._absolute(along.flanks), "body": self._absolute(along.bodies)}
         return np.array(
             [
@@ -323,25 +331,31 @@ class WarmFaces:
 
     def amplified(self, equilibrium: Equilibrium, load: FloatArray) -> Amplification:
         """How the loop of this network multiplies misalignment at a load that is given."""
-        return self.amplification(equilibrium, self.faces.solve(self._at_nodes(load)))
+        return self.amplification(equilibrium, self.faces.solve(self.at_nodes(load)))
 
     def amplification(self, equilibrium: Equilibrium, along: Along) -> Amplification:
-        """How the loop multiplies a skew of the gap of every face (Eq. W9)."""
-        faces, count = len(self.prepared.meshes), self.prepared.unit.stations.size
-        loop, by_gap = self._loop(equilibrium, along), self._by_gap(equilibrium)
-        largest = float(np.linalg.eigvals(loop).real.max())
-        skew = np.linspace(-0.5, 0.5, count)
-        gains, amplifications, ends = [], [], []
-        for face in range(faces):
-            here = slice(face * count, (face + 1) * count)
-            alone = by_gap[:, here] @ skew
-            both = np.linalg.solve(np.eye(loop.shape[0]) - loop, alone)
-            first, amplified = (float(np.trapezoid(skew * one[here])) for one in (alone, both))
-            largest_first = float(np.abs(alone[here]).max())
-            if largest >= 1.0 or first == 0.0:
-                gains, amplifications, ends = [*gains, None], [*amplifications, None], [*ends, None]
-                continue
-            amplifications.append(amplified / first)
-            gains.append(1 - first / amplified)
-            ends.append(float(np.abs(both[here]).max()) / largest_first)
-        return Amplification(tuple(gains), tuple(amplifications), tuple(ends), largest)
+        """How the loop multiplies a skew of the gap of every face at a load (Eq. W9)."""
+        return amplification(self.loop(equilibrium, along), self.by_gap(equilibrium), len(self.prepared.meshes))
+
+
+def amplification(loop: FloatArray, by_gap: FloatArray, faces: int) -> Amplification:
+    """How a loop multiplies the load by a skewed gap of each face; both matrices by the stations of all faces (W9)."""
+    count = len(loop) // faces
+    largest = float(np.linalg.eigvals(loop).real.max())
+    skew = np.linspace(-0.5, 0.5, count)
+    pairs = list[tuple[float | None, float | None]]()
+    for face in range(faces):
+        here = slice(face * count, (face + 1) * count)
+        alone = by_gap[:, here] @ skew
+        both = np.linalg.solve(np.eye(len(loop)) - loop, alone)
+        first, amplified = (float(np.trapezoid(skew * load[here])) for load in (alone, both))
+        if largest >= 1.0 or first == 0.0:
+            pairs.append((None, None))
+        else:
+            pairs.append((amplified / first, float(np.abs(both[here]).max() / np.abs(alone[here]).max())))
+    return Amplification(
+        gain=tuple(None if skewed is None else 1 - 1 / skewed for skewed, _ in pairs),
+        skew=tuple(skewed for skewed, _ in pairs),
+        end=tuple(end for _, end in pairs),
+        largest_eigenvalue=largest,
+    )
