@@ -56,7 +56,7 @@ def solve(inputs: DriveTrainInputs, start: FloatArray | None = None) -> DriveTra
     gas = gas_heat(inputs.pumping, inputs.mesh.distribution.load.pinion_speed)
     heat = None if warm is None else with_safety_band(inputs, face.rule, warm, number, flank.safety)
     along = () if warm is None else face_heats(warm)
-    if heat is not None and along:
+    if heat is not None and warm is not None and along:
         heat = with_amplification_band(replace(heat, face=along[number]), warm, number)
     frictions = [own.spread.friction_loss.power for own in faces]
     friction = None if None in frictions else sum(power for power in frictions if power is not None)

@@ -14,7 +14,7 @@ from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import coo_matrix, csc_matrix
+from scipy.sparse import coo_matrix, csc_matrix, diags
 from scipy.sparse.linalg import SuperLU, splu
 from scipy.special import i0e, i1e
 
@@ -25,7 +25,7 @@ POISSON_RATIO = 0.3  # of steel
 RADIAL_RINGS = 8  # least number from the axis to the rim
 RIM_CLUSTER = 1.6  # exponent of the radii: the rings are thinner towards the rim, where the heat enters
 COARSER = 1.5  # growth of the rings' widths away from the face
-CLOSE = 5e-3  # root radii; lines that are closer together are one
+CLOSE = 5e-4  # root radii; lines that are closer together are one
 GAUSS = np.array([-(0.6**0.5), 0.0, 0.6**0.5])
 GAUSS_WEIGHTS = np.array([5.0, 8.0, 5.0]) / 9.0
 CORNERS = ((-1, -1), (1, -1), (1, 1), (-1, 1), (0, -1), (1, 0), (0, 1), (-1, 0))
@@ -201,7 +201,7 @@ class Rings:
             shape = line_shape(s)
             blocks += np.einsum("e,i,j->eij", weight * half * 2 * pi * (r @ shape), shape, shape)
         matrix = _assembled(blocks, edges, edges, (size, size))
-        return matrix, np.asarray(matrix.sum(axis=1)).ravel()
+        return matrix, np.asarray(matrix @ np.ones(size))
 
     def growth(self, rises: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Displacements (radial, axial) of all nodes by temperature rises of the nodes, over the expansion [m].
@@ -233,7 +233,7 @@ class Rings:
             heat += volume * ((strain.transpose(0, 2, 1) @ stress)[:, :, None] * shape)
         degrees = np.stack([2 * self.elements, 2 * self.elements + 1], axis=2).reshape(count, -1)
         matrix = _assembled(stiffness, degrees, degrees, (2 * size, 2 * size))
-        held = coo_matrix(([float(matrix.diagonal().max())], ([0], [0])), shape=matrix.shape)
+        held = diags(np.where(np.arange(2 * size) == 0, float(matrix.diagonal().max()), 0.0))
         return splu(csc_matrix(matrix + held)), _assembled(heat, degrees, self.elements, (2 * size, size))
 
     def _points(self) -> Iterator[tuple[FloatArray, FloatArray, FloatArray]]:
@@ -324,7 +324,7 @@ def _lines(geometry: RotorGeometry) -> tuple[FloatArray, FloatArray]:
     radii = {part.inner for part in geometry.cylinders} | {part.outer for part in geometry.cylinders}
     inner, outer = min(radii), geometry.root_radius
     even = inner + (outer - inner) * (1 - np.linspace(1, 0, RADIAL_RINGS + 1) ** RIM_CLUSTER)
-    return np.unique(z), _merged(sorted(radii), even)
+    return np.unique(z), _merged(_apart(radii, close), even)
 
 
 def _graded(steps: list[float], start: float, ring: float, close: float) -> list[float]:
@@ -340,6 +340,15 @@ def _graded(steps: list[float], start: float, ring: float, close: float) -> list
         lines += list(at + (step - at) * shares / shares[-1])
         at, wide = step, max((step - at) * (shares[-1] - shares[-2]) / shares[-1] if count > 1 else step - at, ring)
     return lines
+
+
+def _apart(radii: set[float], close: float) -> list[float]:
+    """The radii in order, from the largest down, without those that are too close to one before."""
+    kept = list[float]()
+    for radius in sorted(radii, reverse=True):
+        if not kept or kept[-1] - radius > close:
+            kept.append(radius)
+    return kept[::-1]
 
 
 def _merged(kept: list[float], even: FloatArray) -> FloatArray:

@@ -98,7 +98,8 @@ class WarmFaces:
                     prepared,
                     equilibrium,
                     along,
-                    *(self._absolute(rises) for rises in (along.flanks, along.bodies)),
+                    self._absolute(along.flanks),
+                    self._absolute(along.bodies),
                     self._at_stations(self._own_leads(along)),
                     self.amplification(equilibrium, along),
                 )
@@ -293,7 +294,7 @@ class WarmFaces:
             sources = np.concatenate([bodies[gear], np.zeros((4, hats.shape[1]))])
             growth += self.growth(gear, (flanks[gear] + bodies[gear]) / 2, self.faces.responses[gear], sources)
         ordered = self._at_stations(self.ordered(growth.T))  # (hats, faces, stations)
-        without_mean = ordered - (np.trapezoid(ordered, axis=-1) / (count - 1))[..., None]
+        without_mean = ordered - np.asarray(np.trapezoid(ordered, axis=-1) / (count - 1))[..., None]
         return -self.by_gap(equilibrium) @ without_mean.reshape(hats.shape[1], -1).T
 
     def fit(self, readings: tuple[FaceReading, ...], equilibrium: Equilibrium) -> tuple[float, float]:

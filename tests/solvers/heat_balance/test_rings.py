@@ -33,7 +33,7 @@ def rotors(draw: st.DrawFn) -> RotorGeometry:
     high, root, bore = count * width + gap, draw(st.floats(0.06, 0.5)), 0.0
     side = [Cylinder(-draw(st.floats(0.02, 0.2)), 0.0, 0.0, draw(st.floats(0.3, 1.0)) * root)]
     other = [Cylinder(high, high + draw(st.floats(0.02, 0.2)), 0.0, draw(st.floats(0.3, 1.0)) * root)]
-    body, web = [Cylinder(0.0, high, bore, root)], ()
+    body, web = [Cylinder(0.0, high, bore, root)], list[float]()
     if draw(st.booleans()):
         rim, hub, half = 0.85 * root, 0.5 * root, draw(st.floats(0.02, 0.45)) * width
         middle = high / 2
@@ -42,7 +42,7 @@ def rotors(draw: st.DrawFn) -> RotorGeometry:
             Cylinder(middle - half, middle + half, hub, rim),
             Cylinder(0.0, high, rim, root),
         ]
-        web = (middle - half, middle + half)
+        web = [middle - half, middle + half]
     starts = [k * (width + gap) for k in range(count)]
     faces = tuple(
         tuple(
