@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
-from math import log
+from functools import cached_property
+from math import exp, log
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -27,7 +28,7 @@ ROELANDS_LOG_VISCOSITY = 9.67  # -ln(6.31e-5); the viscosity at the pole is 6.31
 ROELANDS_POLE_TEMPERATURE = 138.0  # K
 
 
-@record
+@record(slots=False)
 class Lubricant:
     """A lubricating oil.
 
@@ -100,7 +101,7 @@ class Lubricant:
     )
     viscosity_index: float | None = described("Viscosity index; reported, not used [-].", default=None)
 
-    @property
+    @cached_property
     def laws(self) -> "FluidLaws":
         """Constants of the viscosity and density laws, for the compiled functions."""
         a1 = log(self.viscosity) + ROELANDS_LOG_VISCOSITY
@@ -133,7 +134,9 @@ class Lubricant:
                 "to the reference temperature, or lower the temperature-viscosity coefficient"
             )
             raise InvalidInput("viscosity_range", message, "lubricant.temperature_viscosity")
-        return float(np.exp(log_viscosity(laws, pressure_part(laws, pressure)[0], temperature)[0]))
+        if pressure != 0.0:
+            logarithm = float(log_viscosity(laws, pressure_part(laws, pressure)[0], temperature)[0])
+        return exp(logarithm)
 
     def density_at(self, pressure: float, temperature: float) -> float:
         """Return the density [kg/m^3] at pressure [Pa] and temperature [K]."""

@@ -26,6 +26,8 @@ def check_inputs(inputs: DriveTrainInputs, path: PathOfContact) -> None:
         _check_sections(inputs, path, index, name)
         _check_bearings(inputs, shaft, name)
         _check_torque(inputs, index, name)
+        _check_gear_body(inputs, path, index, name)
+    _check_jets(inputs)
     _check_couplings(inputs)
     _check_collar(inputs, path)
 
@@ -61,6 +63,46 @@ def _check_sections(inputs: DriveTrainInputs, path: PathOfContact, index: int, n
 def _faces(inputs: DriveTrainInputs) -> tuple[float, float]:
     """Return Z of both ends of the face; of double-helical gears, of both helices with the gap [m]."""
     return inputs.face_start, inputs.face_start + inputs.mesh.distribution.gears.total_width
+
+
+def _check_gear_body(inputs: DriveTrainInputs, path: PathOfContact, index: int, name: str) -> None:
+    body, shaft = inputs.shafts[index].gear_body, inputs.shafts[index]
+    if body is None:
+        return
+    root, (start, end) = (path.pair.pinion, path.pair.wheel)[index].root_radius, _faces(inputs)
+    bore, position = 0.0, shaft.start
+    for section in shaft.sections:
+        if position < end and position + section.length > start:
+            bore = max(bore, section.inner_diameter)
+        position += section.length
+    message = None
+    if body.hub_diameter / 2 >= root - body.rim_thickness:
+        message = (
+            f"rim and hub overlap: the root circle has {2e3 * root:.4g} mm; make the rim thinner or the hub smaller"
+        )
+    elif body.web_width > end - start:
+        message = f"the web is wider than the face of {1e3 * (end - start):.4g} mm"
+    elif body.hub_diameter <= bore:
+        message = f"the hub is not larger than its bore of {1e3 * bore:.4g} mm"
+    if message is not None:
+        raise InvalidInput("gear_body", message, f"{name}.gear_body")
+
+
+def _check_jets(inputs: DriveTrainInputs) -> None:
+    jets, width = inputs.mesh.cooling.jet_distribution, inputs.mesh.distribution.gears.face_width
+    field = "mesh.cooling.jet_distribution"
+    position = np.asarray(jets.position)
+    if position.size != len(jets.weight) or np.any(np.diff(position) <= 0.0):
+        message = "give rising positions, and one weight for each"
+        raise InvalidInput("jet_distribution", message, field)
+    readings = [reading.position for reading in inputs.mesh.cooling.measured.face]
+    for values, code, place in (
+        (position, "jet_distribution", field),
+        (readings, "outside", "mesh.cooling.measured.face"),
+    ):
+        if any(value > width * (1 + ROUNDING) for value in values):
+            message = f"a position lies outside the face, which is {1e3 * width:.4g} mm wide"
+            raise InvalidInput(code, message, place)
 
 
 def check_bearing_count(shaft: Shaft, name: str) -> None:

@@ -4,13 +4,15 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from solvers.arrays import frozen
+from solvers.arrays import FloatArray, frozen
 from solvers.drive_train.gap.balance import Equilibrium
+from solvers.drive_train.gap.face_curves import face_mean
 from solvers.drive_train.gap.misalignment import misalignment
+from solvers.drive_train.gap.thermal_lead import ThermalLead
 from solvers.drive_train.inputs import NAMES_OF_SHAFTS, DriveTrainInputs
 from solvers.drive_train.prepared import Prepared, of_faces
 from solvers.drive_train.results import AxialBalance, CouplingResult, FaceLoad, HelixResult
-from solvers.drive_train.safety import FlankHeat, contact_of, flank_heat
+from solvers.drive_train.safety import FaceBulk, FlankHeat, contact_of, flank_heat
 from solvers.drive_train.shafts.coupling_loads import runout_thrust
 from solvers.scuffing.mesh_results import period_mean
 from solvers.scuffing.micropitting.wear import wear_asked_for
@@ -55,7 +57,8 @@ def loaded_face(
     spread = distribution(inputs.mesh.distribution, equilibrium.meshes[face].prepared, equilibrium.balances[face])
     contact, spread, flash, _, rule, ran = in_force(contact_of(inputs), spread)
     inputs = replace(inputs, mesh=contact)
-    flank = flank_heat(inputs, spread, flash, prepared.thermal)
+    thermal = prepared.thermals[face]
+    flank = flank_heat(inputs, spread, flash, FaceBulk(inputs, thermal, _deviations(thermal, rule)))
     here = system.frame.faces[face]
     return LoadedFace(
         inputs=inputs,
@@ -68,7 +71,7 @@ def loaded_face(
             start=here.start,
             share=share,
             axial_force=equilibrium.meshes[face].transmitted * float(here.force[2]),
-            misalignment=misalignment(inputs, system, prepared.thermal, equilibrium, face),
+            misalignment=misalignment(inputs, system, prepared.thermals[face], equilibrium, face),
             load=face_load(spread),
             flash=flank.flash,
             safety=flank.safety,
@@ -81,6 +84,13 @@ def loaded_face(
             film_ratio=None if flank.micropitting.ratio is None else frozen(flank.micropitting.ratio),
         ),
     )
+
+
+def _deviations(thermal: ThermalLead, rule: BulkRule) -> FloatArray | None:
+    """Deviations of both surfaces from their means along the face [K], as far as the contact takes the balance."""
+    if thermal.flanks is None or not rule.weight:
+        return None
+    return np.asarray(rule.weight * (thermal.flanks - np.array([[face_mean(own)] for own in thermal.flanks])))
 
 
 def face_load(spread: LoadDistribution) -> FaceLoad:

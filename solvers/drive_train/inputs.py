@@ -21,6 +21,7 @@ from solvers.sources import OCVIRK
 Vector2 = tuple[float, float]
 CouplingFriction = Literal["elastic_plastic", "sliding"]
 BearingFilm = Literal["finite", "short"]
+FaceTemperatures = Literal["uniform", "profile"]
 ShaftName = Literal["pinion", "wheel"]
 NAMES_OF_SHAFTS: tuple[ShaftName, ShaftName] = ("pinion", "wheel")
 State = Literal["hot", "cold"]
@@ -155,6 +156,17 @@ def gear_oil_viscosity(oil: OilSheet | Lubricant, feed_temperature: float, film_
 
 
 @record
+class GearBody:
+    """A gear body of rim, web and hub; the web is at mid-face, and the hub as wide as the face."""
+
+    rim_thickness: float = quantity(
+        "thickness of the rim", "s_R", unit="mm", ge=1, le=2000, tolerance=1, text="under the root circle"
+    )
+    web_width: float = quantity("width of the web", "b_s", unit="mm", ge=1, le=3000, tolerance=1)
+    hub_diameter: float = quantity("diameter of the hub", "d_N", unit="mm", ge=5, le=5000, tolerance=1)
+
+
+@record
 class Shaft:
     """A shaft in two bearings; the sections of the shaft follow one another along Z and begin at `start`."""
 
@@ -194,6 +206,14 @@ class Shaft:
         ge=1,
         le=1e8,
         default_text="no verdict on the thrust bearing",
+    )
+    gear_body: GearBody | None = quantity(
+        "body of the gear",
+        kw_only=True,
+        default=None,
+        text="rim, web and hub; used where the temperatures follow the face",
+        default_text="solid",
+        assumed="solid, from the bore to the root circle",
     )
 
     @property
@@ -560,6 +580,13 @@ class DriveTrainInputs:
         le=201,
         text="stations at which shafts and mesh act on each other",
         advanced=True,
+    )
+    face_heat: FaceTemperatures | None = quantity(
+        "temperatures along the face",
+        kw_only=True,
+        default=None,
+        text="uniform: one of flank and body per gear; profile: the loaded end heats itself, and rotors are elastic",
+        default_text="profile where the heat balance of the unit runs, else uniform",
     )
     local_bulk: bool = quantity(
         "local bulk temperature",

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from math import pi
 
 from solvers.contact.notices import high_pressure
 from solvers.coupling.notices import tall_tooth
@@ -18,7 +19,10 @@ from solvers.drive_train.results import (
 )
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.notices import tooth_load, tooth_temperature, unusual_gears
+from solvers.gears.pair import PathOfContact
 from solvers.heat_balance import Heat
+from solvers.heat_balance.results import FaceHeat
+from solvers.heat_balance.rings import cylinder_growth
 from solvers.lubricants import hot_oil, oil_temperature, thick_oil
 from solvers.notices import Notice
 from solvers.pumping.notices import thin_air
@@ -30,6 +34,8 @@ SHORT_BEARING = 0.7  # ratio of width to diameter above which the theory of shor
 ROUNDING = 1e-9  # relative rounding error of lengths that were converted from other units
 THIN_FILM = 15e-6  # m; thinner films give a warning
 LARGE_ECCENTRICITY = 0.9  # customary design limit, at which the thinnest film is a tenth of the clearance
+AMPLIFIED = 1.5  # chosen; amplification above which heat is named
+SLENDER = 2.0  # pi r_f/b of a wheel whose rim yields by itself
 LIFTED = 0.9  # contact fraction below which flanks count as lifted off
 
 
@@ -141,7 +147,7 @@ def helix_notices(
             )
             yield Notice("helices_warm_unequally", message, "mesh.temperatures.bulk")
     yield from counted_twice(load, axial.share_factor)
-    if heat is not None and axial.share_factor > UNEQUAL:
+    if heat is not None and heat.face is None and axial.share_factor > UNEQUAL:
         message = (
             "each helix has the flank temperatures of a balance in which both carry its load; in truth heat flows "
             "through the gap, and the temperatures lie closer together"
@@ -155,6 +161,36 @@ def helix_notices(
             "helix that one on the fast shaft would at the same hub diameter"
         )
         yield Notice("slow_shaft_floats", message, "floating_shaft", rank="note")
+
+
+def face_heat_notices(inputs: DriveTrainInputs, path: PathOfContact, faces: Sequence[FaceHeat]) -> Iterator[Notice]:
+    """Warn where heat multiplies misalignment, and where rotors or free slices are taken as stiffer or softer."""
+    unstable = next((number for number, face in enumerate(faces, 1) if face.largest_eigenvalue >= 1.0), None)
+    if unstable is not None:
+        message = (
+            "one end of the face takes the load and heats itself further; more oil on the flanks, a stiffer wheel or "
+            "less friction"
+        )
+        yield Notice("thermally_unstable", message, "cooling", rank="invalid")
+    largest = max((face.amplification or 0.0 for face in faces), default=0.0)
+    if largest > AMPLIFIED:
+        message = (
+            f"heat amplifies misalignment {largest:.2g} times; a tolerance of 10 µm acts like {10 * largest:.2g} µm"
+        )
+        yield Notice("thermally_amplified", message, "cooling", rank="note")
+    wheel, responses = path.pair.wheel, inputs.heat.responses(path.pair.pinion.teeth / path.pair.wheel.teeth)
+    slenderness = pi * wheel.root_radius / path.plane.face_width
+    if faces and slenderness > SLENDER and inputs.wheel_shaft.gear_body is None:
+        message = (
+            "the wheel is taken as solid; a rim on a web grows up to three times as much. Give gear_body if it has one"
+        )
+        yield Notice("solid_wheel", message, "wheel_shaft.gear_body", rank="note")
+    if not faces and inputs.effects.thermal and any(responses) and slenderness > 1.0:
+        message = (
+            "the lead of the pumped gas assumes free slices; this wheel yields about "
+            f"{100 * cylinder_growth(slenderness):.2g} % of it"
+        )
+        yield Notice("gas_grows_freely", message, "face_heat", rank="note")
 
 
 def gears_ratio(gears: GearPairInputs) -> float:

@@ -11,7 +11,7 @@ from solvers.drive_train.gap.face_curves import face_slope
 from solvers.drive_train.helices import decisive, loaded_face
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.prepared import Prepared, prepare, settle
-from solvers.drive_train.unit_heat import asks_for_balance, warm_unit
+from solvers.drive_train.unit_heat import asks_for_balance, check_face_heat, warm_unit
 from solvers.scuffing.thermal.bulk import Flanks
 
 
@@ -49,6 +49,7 @@ def outcome(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Outcom
             replace(inputs, mesh=replace(inputs.mesh, cooling=replace(inputs.mesh.cooling, band=False))), start
         )
         return outcome_of(warm.inputs, warm.prepared, warm.equilibrium, warm.helix_flanks)
+    check_face_heat(inputs)
     prepared = prepare(inputs)
     return outcome_of(inputs, prepared, settle(inputs, prepared, start))
 
@@ -76,7 +77,7 @@ def outcome_of(
         max_pressure=spread.pressure.max,
         max_line_load=spread.load.max_line_load,
         shaft_slope=slope,
-        total_slope=slope + face_slope(prepared.thermal.lead),
+        total_slope=slope + face_slope(prepared.thermals[number].lead),
         transmission_error_peak_to_peak=spread.transmission_error.peak_to_peak,
         shares=np.asarray(shares) / (mean if mean > 0.0 else 1.0),
         temperature=heat.temperature,

@@ -23,12 +23,12 @@ class Prepared:
     """The parts of a unit before the iteration that finds the gap.
 
     `unit` holds shafts, bearings and couplings as one elastic system, `meshes` holds the mesh of the heated gears on
-    every face under the whole force, and `thermal` holds the gap that heat causes, the same on every face.
+    every face under the whole force, and `thermals` holds the gap that heat causes on every face.
     """
 
     unit: Unit
     meshes: tuple[LoadedMesh, ...]
-    thermal: ThermalLead
+    thermals: tuple[ThermalLead, ...]
 
     @property
     def path(self) -> PathOfContact:
@@ -45,7 +45,8 @@ def prepare(inputs: DriveTrainInputs) -> Prepared:
     steps = inputs.face_stations - 1
     points = np.linspace(0.0, path.plane.face_width, steps * -(-LEAST_POINTS // steps) + 1)
     thermal = thermal_lead(inputs, path, points) if inputs.effects.thermal else no_heat(points)
-    return Prepared(system, tuple(_loaded(inputs, mesh, thermal, points, system.stations) for mesh in given), thermal)
+    meshes = tuple(_loaded(inputs, mesh, thermal, points, system.stations) for mesh in given)
+    return Prepared(system, meshes, (thermal,) * len(meshes))
 
 
 def of_faces(inputs: DriveTrainInputs) -> tuple[LoadDistributionInputs, ...]:

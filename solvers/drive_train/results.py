@@ -11,7 +11,7 @@ from solvers.drive_train.derived import Derived
 from solvers.drive_train.inputs import ShaftName, Vector2
 from solvers.drive_train.shafts.thrust_budget import Thrust
 from solvers.heat_balance import FlowCurve
-from solvers.heat_balance.results import Heat
+from solvers.heat_balance.results import FaceHeat, Heat
 from solvers.notices import Notice
 from solvers.quantity import computed, described, quantity, record
 from solvers.scuffing.inputs import ISO_TR_15144, TR_13989
@@ -390,15 +390,20 @@ class HelixResult:
         "flank temperature of the helix on the pinion",
         "θ_F1",
         unit="c",
-        text="as if the other helix carried the same; null without a heat balance",
+        text="mean over its face; where temperatures are uniform along the face, as if the other helix carried the "
+        "same; null without a heat balance",
         equation="D24",
     )
     wheel_flank: float | None = quantity(
         "flank temperature of the helix on the wheel",
         "θ_F2",
         unit="c",
-        text="as if the other helix carried the same; null without a heat balance",
+        text="mean over its face; where temperatures are uniform along the face, as if the other helix carried the "
+        "same; null without a heat balance",
         equation="D24",
+    )
+    face_heat: FaceHeat | None = quantity(
+        "temperatures along the helix", text="left out where they are uniform", default=None, left_out=True
     )
     misalignment: Misalignment = quantity("misalignment", text="gap over the face, by causes")
     load: FaceLoad = quantity("load", text="how the face carries")

@@ -58,16 +58,54 @@ def contact_of(inputs: DriveTrainInputs) -> ScuffingInputs:
     return replace(inputs.mesh, temperatures=replace(temperatures, bulk=sum(heat.teeth) / 2, bulk_method="given"))
 
 
-def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap, thermal: ThermalLead) -> FlankHeat:
+@dataclass(frozen=True, slots=True)
+class FaceBulk:
+    """Bulk temperatures of the contact along the face; NaN if they are not known (Eq. D15).
+
+    `deviations` (gears, stations) [K] are those of both surfaces from their means, by the warm face. If `local_bulk` is
+    on, the temperature rise due to pumping is added, as the mean of pinion and wheel.
+    """
+
+    inputs: DriveTrainInputs
+    thermal: ThermalLead
+    deviations: FloatArray | None = None
+
+    @property
+    def varies(self) -> bool:
+        """Whether the temperatures follow the face."""
+        return self.inputs.local_bulk or self.deviations is not None
+
+    def __call__(self, y: FloatArray) -> FloatArray:
+        """Mean of both surfaces [K] at distances y [m] along the face."""
+        temperature = self.inputs.mesh.temperatures.bulk
+        mean = np.full(y.shape, np.nan if temperature is None else temperature)
+        if self.inputs.local_bulk:
+            mean += self._along(y, (self.thermal.pinion_rise + self.thermal.wheel_rise) / 2)
+        if self.deviations is not None:
+            mean += self._along(y, self.deviations.mean(axis=0))
+        return mean
+
+    def surfaces(self, y: FloatArray) -> FloatArray:
+        """Bulk temperatures of pinion and wheel in two rows [K]."""
+        surfaces, mean = self.inputs.mesh.temperatures.surfaces, self.inputs.mesh.temperatures.bulk
+        assert surfaces is not None
+        assert mean is not None
+        own = np.add(self(y), (np.array(surfaces) - mean)[:, None])
+        if self.deviations is not None:
+            half = self._along(y, np.diff(self.deviations, axis=0)[0]) / 2
+            own += np.array([-half, half])
+        return own
+
+    def _along(self, y: FloatArray, values: FloatArray) -> FloatArray:
+        return np.interp(y, np.linspace(0.0, self.inputs.mesh.distribution.gears.face_width, values.size), values)
+
+
+def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap, bulk: FaceBulk) -> FlankHeat:
     """Compute Blok's temperatures on the feature line and over the flank, and solve the thermal EHL (Eq. D15).
 
     Thermal EHL is solved on the feature line and at the places of the flank that decide.
     """
     given, plane = inputs.mesh.distribution, mesh.path_of_contact.plane
-
-    def bulk(y: FloatArray) -> FloatArray:
-        return _bulk(inputs, thermal, y)
-
     psi = _feature_points(inputs, mesh, bulk)
     along, across = psi * plane.path_length, psi * plane.face_width
     feature = contact_at_points(given, mesh, along, across)
@@ -85,11 +123,11 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap
         places = _places(inputs, mesh, flash, hottest, bulk)
         solved = [line] if places is None else [line, places.solved]
         warnings = solver_notices(solved)
-        contacts.append(_hottest_surface(line.path, _of_both_surfaces(inputs, bulk(across))))
+        contacts.append(_hottest_surface(line.path, bulk.surfaces(across)))
         contacts.append(None if places is None else _hottest_surface(places.solved.path, places.surfaces))
         thinnest = None if places is None else _thinnest_film(places)
         unsolved = sum(each.path.status.count(status) for each in solved for status in ("no_solution", "refused"))
-    micropitting = check_micropitting(inputs.mesh, mesh, flash, thinnest, bulk if inputs.local_bulk else None)
+    micropitting = check_micropitting(inputs.mesh, mesh, flash, thinnest, bulk if bulk.varies else None)
     place = None
     if strongest is not None and hottest is not None and strongest.value > 0.0:
         place = _place(mesh, hottest)
@@ -143,21 +181,8 @@ def _place(mesh: LoadDistribution, peak: Peak) -> Place:
     )
 
 
-def _bulk(inputs: DriveTrainInputs, thermal: ThermalLead, y: FloatArray) -> FloatArray:
-    """Return the bulk temperature of the contact [K] at distances y [m] along the face; NaN if it is not known.
-
-    If `local_bulk` is on, the temperature rise due to pumping is added, as the mean of pinion and wheel.
-    """
-    temperature = inputs.mesh.temperatures.bulk
-    bulk = np.full(y.shape, np.nan if temperature is None else temperature)
-    if inputs.local_bulk:
-        stations = np.linspace(0.0, inputs.mesh.distribution.gears.face_width, thermal.pinion_rise.size)
-        bulk += np.interp(y, stations, (thermal.pinion_rise + thermal.wheel_rise) / 2)
-    return bulk
-
-
 def _places(
-    inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap, hottest: Peak, bulk: FaceFunction
+    inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap, hottest: Peak, bulk: FaceBulk
 ) -> Places | None:
     """Solve thermal EHL at the places of the flank that decide; None without a loaded contact."""
     film_at = formula_film(inputs.mesh)
@@ -172,17 +197,9 @@ def _places(
         flash,
         film_at,
         (hottest, thinnest),
-        lambda y: _of_both_surfaces(inputs, bulk(y)),
+        bulk.surfaces,
         lambda y: np.subtract(bulk(y), mean),
     )
-
-
-def _of_both_surfaces(inputs: DriveTrainInputs, bulk: FloatArray) -> FloatArray:
-    """Return the bulk temperatures of pinion and wheel in two rows [K]; `bulk` [K] is the mean of both rows."""
-    surfaces, mean = inputs.mesh.temperatures.surfaces, inputs.mesh.temperatures.bulk
-    assert surfaces is not None
-    assert mean is not None
-    return bulk + (np.array(surfaces) - mean)[:, None]
 
 
 def _hottest_surface(path: ThermalPath, bulk: FloatArray) -> float | None:

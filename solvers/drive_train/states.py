@@ -75,6 +75,7 @@ def cool_down(inputs: DriveTrainInputs) -> DriveTrainInputs:
     return replace(
         inputs,
         mesh=mesh,
+        face_heat=None,
         heat=replace(heat, wall_response=0.0, wall_response_wheel=0.0, pinion_bulk=reference, wheel_bulk=reference),
         couplings=tuple(replace(coupling, alignment=None) for coupling in inputs.couplings),
     )

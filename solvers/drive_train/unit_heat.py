@@ -18,16 +18,19 @@ from solvers.arrays import FloatArray
 from solvers.drive_train.checks import NAMES, check_bearing_count
 from solvers.drive_train.elements import coupling_results, hubs_of
 from solvers.drive_train.gap.balance import Equilibrium
+from solvers.drive_train.gap.face_curves import face_mean
 from solvers.drive_train.gap.thermal_lead import gas_heat
+from solvers.drive_train.gap.warm_face import WarmFace, WarmFaces
 from solvers.drive_train.helices import on_face
 from solvers.drive_train.inputs import BearingFilm, DriveTrainInputs, JournalBearing, Shaft, UnitCoupling
 from solvers.drive_train.prepared import Prepared, prepare, settle
 from solvers.drive_train.results import TrainSafety
 from solvers.drive_train.shafts.bearings import friction_and_leakage
 from solvers.drive_train.shafts.influence import Unit
-from solvers.errors import NoSolution
+from solvers.errors import InvalidInput, NoSolution
 from solvers.heat_balance import Heat, HeatBalanceInputs, Journal, MeshHeat, rod_conductance
-from solvers.heat_balance.inputs import Measured
+from solvers.heat_balance.calibration import LEAST_WETTING, MOST_WETTING
+from solvers.heat_balance.inputs import FaceReading, Measured
 from solvers.scuffing.inputs import ScuffingInputs
 from solvers.scuffing.model import distribution
 from solvers.scuffing.safety import safety_factor
@@ -38,6 +41,8 @@ from solvers.scuffing.thermal.temperatures import estimated_bulk, with_friction
 
 CLOSE = 0.05  # K; the passes end if no temperature changes by more than this value from one pass to the next
 MOST_PASSES = 10
+CLOSE_SHARE = 1e-4  # of the wetting share and of the skew of the jets that fit readings along the face
+RELAXATIONS = (0.2, 2.0)  # least and largest relaxation of that fit, chosen
 FIRST_RISE = 25.0  # K; rise of flanks, bodies and films above the oil in the first pass
 SHAFT_CONDUCTIVITY = 46.0  # W/(m K), of steel
 SHORTEST_ROD = 1e-3  # m; least length of the shaft, as a conductor of heat, between gear and bearing
@@ -48,7 +53,9 @@ class WarmUnit:
     """A unit at the temperatures of its heat balance.
 
     `heat` is the result of the heat balance, and `balance` holds the inputs of the heat balance. Of a double-helical
-    unit `helices` are the balances in which both helices carry the load of one (Eq. D24); else empty.
+    unit `helices` are the balances in which both helices carry the load of one (Eq. D24); else empty. `face` holds the
+    temperatures along the face where they are asked for, `faces` how they were found, and `readings` what was measured
+    there.
     """
 
     inputs: DriveTrainInputs
@@ -57,11 +64,21 @@ class WarmUnit:
     heat: Heat
     balance: HeatBalanceInputs
     helices: tuple[Heat, ...]
+    face: WarmFace | None = None
+    faces: WarmFaces | None = None
+    readings: tuple[FaceReading, ...] = ()
 
     @property
     def helix_flanks(self) -> list[Flanks | None]:
         """Flank temperatures of pinion and wheel on every face [K]; None where those of the unit hold."""
+        if self.face is not None:
+            return mean_flanks(self.face.flanks)
         return [(heat.pinion.flank, heat.wheel.flank) for heat in self.helices] or [None]
+
+
+def mean_flanks(flanks: FloatArray) -> list[Flanks | None]:
+    """Return the means of both flanks (gears, faces, stations) over every face [K]."""
+    return [(face_mean(pinion), face_mean(wheel)) for pinion, wheel in flanks.swapaxes(0, 1)]
 
 
 def asks_for_balance(inputs: DriveTrainInputs) -> bool:
@@ -79,12 +96,49 @@ def asks_for_balance(inputs: DriveTrainInputs) -> bool:
     return method_asked(temperatures, inputs.mesh.cooling, has_oil=True) in {None, "heat_balance"}
 
 
+def check_face_heat(inputs: DriveTrainInputs) -> None:
+    """Refuse (`face_heat_needs_balance`) the profile along the face of a unit without a heat balance."""
+    if inputs.face_heat == "profile":
+        message = "the profile along the face follows from the heat balance; choose it as bulk method or take uniform"
+        raise InvalidInput("face_heat_needs_balance", message, "face_heat")
+
+
 def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> WarmUnit:
     """Solve the heat balance of a unit together with its bearings, couplings and flanks.
+
+    Temperatures that were measured along the face determine the wetting share and the skew of the jets.
 
     Raises InvalidInput: the errors of `prepare` and of the balance. Raises NoSolution: `heat_balance` if the
     temperatures do not settle within ten passes; the errors of `settle` and of the balance.
     """
+    cooling = inputs.mesh.cooling
+    readings = cooling.measured.face
+    if not readings:
+        return _settled(inputs, start)
+    cooling.check()
+    if inputs.face_heat == "uniform":
+        message = "readings along the face need the temperatures along it; take profile as face_heat"
+        raise InvalidInput("face_heat_needs_balance", message, "face_heat")
+    values, step, relaxation = np.array([cooling.wetting, 0.0]), np.zeros(2), 1.0
+    without = replace(cooling, measured=replace(cooling.measured, face=()))
+    for _ in range(MOST_PASSES):  # the load follows the fit: Aitken's relaxation of a fit at the load that is there
+        fitted = replace(inputs, mesh=replace(inputs.mesh, cooling=replace(without, wetting_share=float(values[0]))))
+        warm = _settled(fitted, start, float(values[1]))
+        assert warm.faces is not None
+        before, step = step, np.array(warm.faces.fit(readings, warm.equilibrium)) - values
+        if np.abs(step).max() < CLOSE_SHARE:
+            return replace(warm, readings=readings)
+        change = step - before
+        if before.any() and change @ change > 0.0:
+            relaxation = float(np.clip(-relaxation * (before @ change) / (change @ change), *RELAXATIONS))
+        values, start = values + relaxation * step, warm.equilibrium.gap
+        values[0] = np.clip(values[0], LEAST_WETTING, MOST_WETTING)
+    message = "wetting share and skew of the jets do not settle; check the temperatures measured along the face"
+    raise NoSolution("heat_balance", message, {"wetting_share": float(values[0])})
+
+
+def _settled(inputs: DriveTrainInputs, start: FloatArray | None, skew: float = 0.0) -> WarmUnit:
+    """Solve the unit with the jets skewed by `skew` along the face."""
     warm, before, change = _first_guess(inputs), np.empty(0), np.inf
     for _ in range(MOST_PASSES):
         prepared = prepare(warm)
@@ -100,6 +154,10 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
         if change < CLOSE:
             heat = heat_balance.solve(balance) if balance.cooling.band else heat
             heat = with_backlash_loss(heat, prepared.path.pair)
+            if inputs.face_heat != "uniform":
+                faces = warm_faces(warm, prepared, balance, heat, skew)
+                face = faces.solve(equilibrium)
+                return WarmUnit(warm, face.prepared, face.equilibrium, heat, balance, (), face, faces)
             helices = tuple(heat_balance.solve(_of_helix(balance, heat, mesh)) for mesh in of_helices)
             return WarmUnit(warm, prepared, equilibrium, heat, balance, helices)
     message = (
@@ -107,6 +165,17 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
         f"{MOST_PASSES} passes. Give more oil or larger bearings"
     )
     raise NoSolution("heat_balance", message, {"change_k": change})
+
+
+def warm_faces(
+    warm: DriveTrainInputs, prepared: Prepared, balance: HeatBalanceInputs, heat: Heat, skew: float = 0.0
+) -> WarmFaces:
+    """Return the faces of a unit in the heat balance that was solved."""
+    network = heat_balance.calibrated(heat_balance.network_of(balance), balance.cooling)
+    inlet, casing = balance.oil.inlet, [] if heat.casing is None else [heat.casing]
+    gears = [heat.pinion.flank, heat.pinion.body, heat.wheel.flank, heat.wheel.body, heat.mist]
+    rises = np.array([*gears, *(bearing.outlet for bearing in heat.bearings), *casing]) - inlet
+    return WarmFaces(warm, prepared, network, rises, skew)
 
 
 def sized_flow(inputs: DriveTrainInputs) -> float | None:

@@ -162,7 +162,12 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
         raise InvalidInput(
             "missing_mass", "a casing that warms up needs a mass; give the mass of the casing", "cooling.casing.mass"
         )
-    warm = warm_unit(unit)
+    cooling = unit.mesh.cooling
+    if cooling.measured.face:  # the wetting share follows from the running unit
+        share = warm_unit(unit).heat.wetting_share
+        cooling = replace(cooling, wetting_share=share, measured=replace(cooling.measured, face=()))
+        unit = replace(unit, mesh=replace(unit.mesh, cooling=cooling))
+    warm = warm_unit(replace(unit, face_heat="uniform"))
     balance = warm.balance
     network = heat_balance.calibrated(heat_balance.network_of(balance), balance.cooling)
     course = heat_balance.warm_up(network, _capacities(unit, warm), inputs.start, inputs.until)
@@ -183,7 +188,7 @@ def solve(inputs: WarmUpInputs) -> UnitWarmUp:
         ),
         heat=warm.heat,
         derived=_derived(warm),
-        warnings=(*warm.heat.warnings, *_of_two_helices(warm.equilibrium)),
+        warnings=(*warm.heat.warnings, *_of_two_helices(warm.equilibrium), *_of_the_face(unit)),
     )
 
 
@@ -197,6 +202,16 @@ def _of_two_helices(equilibrium: Equilibrium) -> Iterator[Notice]:
             "states that of the end"
         )
         yield Notice("helices_warm_unequally", message, "floating_shaft")
+
+
+def _of_the_face(unit: DriveTrainInputs) -> Iterator[Notice]:
+    """Say that the temperatures along the face are uniform during a warm-up."""
+    if unit.face_heat != "uniform" and unit.effects.thermal:
+        message = (
+            "the warm-up takes uniform temperatures along the face; its end differs from the answer of the drive train "
+            "by the lead of the profile"
+        )
+        yield Notice("warm_up_is_uniform", message, "face_heat", rank="note")
 
 
 def _by_balance(unit: DriveTrainInputs) -> DriveTrainInputs:

@@ -2,9 +2,9 @@
 
 The calculation uses the modules in this order: inputs and oil; losses, bearings, fling_off, convection and conduction;
 network (nodes and heat flows); solution (equilibrium), calibration (with measured temperatures) and band; results and
-notices. `model.solve` calls these modules. `warm_up` uses the heat capacities of the nodes, and computes how the
-temperatures of the nodes change over time. The model is our own derivation; the docstrings name the sources of single
-equations.
+notices. `model.solve` calls these modules. `face` has the temperatures along a face, over `rings`. `warm_up`
+uses the heat capacities of the nodes, and computes how the temperatures of the nodes change over time. The model is our
+own derivation; the docstrings name the sources of single equations.
 """
 
 from solvers.guards import guarded

@@ -73,6 +73,14 @@ def flank_cases(network: Network, cooling: Cooling, nominal: FloatArray) -> tupl
     return tuple((inlet + float(one[FLANKS[0]]), inlet + float(one[FLANKS[1]])) for one in rises)
 
 
+def end_networks(network: Network, cooling: Cooling, cases: tuple[tuple[float, float], ...]) -> tuple[Network, Network]:
+    """Networks of the corners with the coolest and with the hottest flanks of `flank_cases`."""
+    means, tried = [sum(case) for case in cases], corners(network, cooling)
+    ends = (means.index(min(means)), means.index(max(means)))
+    coolest, hottest = (network if end == 0 else _measured_again(tried[end - 1], cooling) for end in ends)
+    return coolest, hottest
+
+
 def _measured_again(corner: Corner, cooling: Cooling) -> Network:
     """Return the network of a corner, fitted to the measured temperatures with their errors."""
     network, measured = corner.network, cooling.measured

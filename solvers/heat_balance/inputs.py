@@ -8,6 +8,7 @@ from solvers.quantity import quantity, record
 from solvers.sources import JUNGNICKEL, MAUZ, OWN
 
 Jets = Literal["into_mesh", "out_of_mesh"]
+GearName = Literal["pinion", "wheel"]
 
 WETTING_SHARE, FLING_OFF_FACTOR, REWETTING_SHARE = 0.5, 1.0, 0.0
 
@@ -55,6 +56,51 @@ class Casing:
         ge=1,
         le=1e6,
         default_text="required by a warm-up with a casing",
+    )
+
+
+@record
+class JetDistribution:
+    """Relative oil flow of the jets along the face, the same on both gears.
+
+    It is linear between the positions, constant beyond them, and scaled to the mean 1 over the face.
+    """
+
+    position: tuple[float, ...] = quantity(
+        "positions of the jets' distribution",
+        "y",
+        unit="mm",
+        default=(),
+        ge=0,
+        le=5000,
+        tolerance=1,
+        length=(0, 100),
+        text="rising, from the end that meshes first",
+    )
+    weight: tuple[float, ...] = quantity(
+        "relative oil flow",
+        "g",
+        default=(),
+        gt=0,
+        le=1000,
+        tolerance=0.1,
+        length=(0, 100),
+        text="oil per width of face at each position",
+    )
+
+
+@record
+class FaceReading:
+    """A temperature measured at a place of the face."""
+
+    gear: GearName = quantity("gear of the reading")
+    place: Literal["flank", "body"] = quantity("place of the reading", text="loaded flank, or tooth and rim")
+    position: float = quantity(
+        "position of the reading", "y", unit="mm", ge=0, le=5000, tolerance=1, text="from the end that meshes first"
+    )
+    temperature: float = quantity("temperature of the reading", "θ", unit="c", ge=-50, le=400, tolerance=3)
+    helix: Literal[1, 2] = quantity(
+        "helix of the reading", default=1, text="of double-helical gears: 1 at the lower Z, or 2"
     )
 
 
@@ -117,17 +163,23 @@ class Measured:
         default_text="not measured",
         text="all oil that leaves the unit, that of the bearings too",
     )
+    face: tuple[FaceReading, ...] = quantity(
+        "temperatures measured along the face",
+        default=(),
+        length=(0, 8),
+        text="two or more thermocouples, instead of the single values; wetting share and skew of the jets follow",
+    )
 
     @property
     def rotors(self) -> dict[str, float]:
         """Measured temperatures of the gears [K]. The keys are names of nodes; the pinion comes first."""
-        given = {item.name: getattr(self, item.name) for item in fields(self) if item.name != "drain"}
+        given = {item.name: getattr(self, item.name) for item in fields(self) if item.name not in {"drain", "face"}}
         return {name: value for name, value in given.items() if value is not None}
 
     @property
     def any(self) -> bool:
         """Whether any temperature was measured."""
-        return bool(self.rotors) or self.drain is not None
+        return bool(self.rotors) or self.drain is not None or bool(self.face)
 
 
 @record
@@ -291,6 +343,12 @@ class Cooling:
         assumed="0.8 (Cameron; quoted, not verified)",
         folded=True,
     )
+    jet_distribution: JetDistribution = quantity(
+        "distribution of the jets along the face",
+        default_factory=JetDistribution,
+        text="used where the temperatures follow the face",
+        folded=True,
+    )
     band: bool = quantity(
         "band",
         default=True,
@@ -336,7 +394,19 @@ class Cooling:
                     "them"
                 )
                 raise InvalidInput("exclusive", message, f"cooling.measured.{gear}_body")
-        if measured.rotors and self.wetting_share is not None:
+        if measured.face and measured.rotors:
+            message = (
+                "temperatures are measured along the face and for a whole gear; give either the readings along the "
+                "face or one temperature per gear"
+            )
+            raise InvalidInput("exclusive", message, "cooling.measured.face")
+        if measured.face and self.jet_distribution.position:
+            message = (
+                "the skew of the jets follows from the temperatures measured along the face; give either the readings "
+                "or the distribution"
+            )
+            raise InvalidInput("exclusive", message, "cooling.jet_distribution")
+        if (measured.rotors or measured.face) and self.wetting_share is not None:
             message = (
                 "the wetting share follows from the measured temperature of a gear; give either the measured "
                 "temperature or the wetting share, not both"

@@ -1,7 +1,6 @@
 """Warnings about the validity of a heat balance."""
 
 from collections.abc import Iterator
-from dataclasses import fields
 from math import sqrt
 
 from solvers.arrays import FloatArray
@@ -107,7 +106,9 @@ def unusual_flow(gear_flow: float | None, heat: Heat, oil: CoolingOil) -> Iterat
 
 def unusual_measurements(cooling: Cooling) -> Iterator[Notice]:
     """Warn if a measured temperature is unusual; it may be in degrees Fahrenheit."""
-    for item in fields(cooling.measured):
-        temperature = getattr(cooling.measured, item.name)
+    measured = cooling.measured
+    given = [*measured.rotors.items(), ("drain", measured.drain)]
+    given += [(f"face.{k}.temperature", reading.temperature) for k, reading in enumerate(measured.face)]
+    for name, temperature in given:
         if temperature is not None:
-            yield from hotter_than_gears(temperature, f"cooling.measured.{item.name}")
+            yield from hotter_than_gears(temperature, f"cooling.measured.{name}")

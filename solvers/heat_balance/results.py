@@ -1,8 +1,9 @@
 """Results of a heat balance; SI units."""
 
+from solvers.arrays import FloatArray
 from solvers.notices import Notice
 from solvers.quantity import described, quantity, record
-from solvers.sources import OWN
+from solvers.sources import ISO_6336, OWN
 
 Range = tuple[float, float]
 
@@ -125,6 +126,111 @@ class HeatBand:
         index="low, high",
         text="covers the cooling only, not load, alignment or oil",
     )
+    amplification: Range | None = quantity(
+        "band of the amplification",
+        "A",
+        default=None,
+        index="low, high",
+        text="of misalignment by heat, at the coolest and the hottest flanks; left out with uniform temperatures",
+        left_out=True,
+        equation="W9",
+    )
+
+
+@record(equation="W1")
+class GearAlongFace:
+    """Temperatures of a gear at the stations of a face."""
+
+    flank: FloatArray = quantity("flank temperature along the face", "θ_F(y)", OWN, unit="c", axis="position")
+    body: FloatArray = quantity(
+        "temperature of the teeth along the face",
+        "θ_S(y)",
+        OWN,
+        unit="c",
+        text="middle of the teeth, and root circle of the body",
+        axis="position",
+        equation="W2",
+    )
+
+
+@record(equation="W1")
+class UniformHeat:
+    """The same unit heated as by an even load; the difference is what the load's own heat adds."""
+
+    face_load_factor: float | None = quantity("face load factor at even heat", "K_Hβ,0", ISO_6336)
+    blok_flank: float | None = quantity(
+        "safety factor at even heat", "S_B,0", text="on the flank by Blok; null without a scuffing temperature"
+    )
+    pinion_flank: FloatArray = quantity(
+        "flank of the pinion at even heat", "θ_F1,0", OWN, unit="c", text="at the same positions", detail="curves"
+    )
+    wheel_flank: FloatArray = quantity(
+        "flank of the wheel at even heat", "θ_F2,0", OWN, unit="c", text="at the same positions", detail="curves"
+    )
+    line_force: FloatArray = quantity(
+        "transverse force per face at even heat",
+        "q_0",
+        unit="n_per_mm",
+        text="at the same positions",
+        detail="curves",
+        equation="D11",
+    )
+
+
+@record(kw_only=True, equation="W9")
+class FaceHeat:
+    """Temperatures along a face that follow from the load, and what they do to the load."""
+
+    position: FloatArray = quantity(
+        "position on the face", "y", unit="mm", text="from the end that meshes first", detail="curves"
+    )
+    pinion: GearAlongFace = quantity("pinion along the face", detail="curves")
+    wheel: GearAlongFace = quantity("wheel along the face", detail="curves")
+    lead: FloatArray = quantity(
+        "gap by the own heat",
+        "g_own",
+        unit="um",
+        text="of teeth and rotors",
+        axis="position",
+        equation="W5",
+        detail="curves",
+    )
+    lead_slope: float = quantity("slope by the own heat", "f_own", unit="um", equation="W5")
+    lead_crown: float = quantity("crown by the own heat", "C_own", unit="um", equation="W5")
+    gain: float | None = quantity(
+        "gain of the loop", "g", text="share of a skew of the load that its heat adds; null if it is unstable"
+    )
+    amplification: float | None = quantity(
+        "amplification of misalignment", "A", text="1/(1 − g): what heat makes of a skewed gap; null if it is unstable"
+    )
+    end_amplification: float | None = quantity(
+        "amplification at the end of the face", "A_end", text="of the largest line load; null if it is unstable"
+    )
+    largest_eigenvalue: float = quantity(
+        "largest eigenvalue of the loop", "λ_1", text="from 1 on one end of the face takes the load"
+    )
+    uniform_heat: UniformHeat = quantity("at even heat")
+    jet_skew: float | None = quantity(
+        "skew of the jets",
+        "j",
+        default=None,
+        text="that fits the readings along the face; stands for all that is unknown along it, sweeping oil included; "
+        "left out without readings",
+        left_out=True,
+        equation="heat-balance#the-warm-face",
+    )
+    reading_deviation: FloatArray | None = quantity(
+        "deviations from the readings",
+        "Δθ",
+        unit="k",
+        default=None,
+        text="calculated minus measured, in the order of the request; left out without readings",
+        left_out=True,
+        equation="heat-balance#the-warm-face",
+    )
+    balance_error: float = quantity(
+        "error of the balance along the face", text="difference over the heat supplied", equation="W3"
+    )
 
 
 @record(equation="H11")
@@ -183,6 +289,12 @@ class Heat:
         default=None,
         text="from the temperatures of gears and casing; null without that of the casing",
         equation="H22",
+    )
+    face: FaceHeat | None = quantity(
+        "temperatures along the face",
+        text="of the face, or helix, that decides; left out where they are uniform",
+        default=None,
+        left_out=True,
     )
     flank_cases: tuple[tuple[float, float], ...] = described(
         "Temperatures of both flanks in the nominal case and at the corners of the band [K].",

@@ -333,6 +333,40 @@ def wear(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     return replace(figure, finding=f"{decisive(result)}{figure.finding}")
 
 
+def face_heat(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
+    """Draw flank temperatures and load along the face, and in pale both as the heat of an even load makes them."""
+    along = None if result.heat is None else result.heat.face
+    if along is None:
+        raise NoFigure(
+            "uniform_face", "The temperatures along the face are uniform; ask for the profile", "model.face_heat"
+        )
+    even, x, load = along.uniform_heat, face(face_width(inputs)), result.misalignment.curves
+    warm = axis(along.pinion, "flank", "flank temperature")
+    lines = [
+        Line(f"{gear}{title}", along.position, curve, hue, role)
+        for gear, hue, curves in (
+            ("pinion", Hue.VERMILLION, (along.pinion.flank, even.pinion_flank)),
+            ("wheel", Hue.BLUE, (along.wheel.flank, even.wheel_flank)),
+        )
+        for curve, title, role in zip(curves, ("", ", even heat"), (Role.RESULT, Role.REFERENCE), strict=True)
+    ]
+    forces = [
+        Line("own heat", load.position, load.line_force, Hue.BLUE),
+        Line("even heat", along.position, even.line_force, Hue.BLUE, Role.REFERENCE),
+    ]
+    carried = axis(load, "line_force", "transverse force per face, mean over the roll")
+    panels = [
+        Panel(x=x, y=warm, lines=lines, marks=parts.extreme(lines[::2])),
+        Panel(x=x, y=carried, lines=forces, marks=parts.extreme(forces[:1])),
+    ]
+    if along.amplification is None:
+        return Figure(f"{decisive(result)}unstable: one end of the face takes the load and heats itself", panels)
+    factors = result.load.face_load_factor, even.face_load_factor
+    raised = "" if None in factors else f", K_Hβ {number(factors[0] or 0.0)} instead of {number(factors[1] or 0.0)}"
+    times = number(along.amplification)
+    return Figure(f"{decisive(result)}heat multiplies misalignment {times} times{raised}", panels)
+
+
 def where_heat_goes(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Draw the heat that the losses supply, the heat that leaves the gears, and the heat that leaves the unit."""
     return heat_balance.where_heat_goes(heat_balance.heat_of(result.heat))
@@ -387,6 +421,14 @@ FIGURES = (
     Declaration("slope-parts", "Where the misalignment comes from", OWN, slope_parts),
     Declaration(
         "face-load", "Load along the face, with and without each effect", OWN, face_load, compute=effects_apart
+    ),
+    Declaration(
+        "face-heat",
+        "Heat along the face, and what it does to the load",
+        OWN,
+        face_heat,
+        asked_by=METHOD,
+        asked_if=BALANCE,
     ),
     Declaration("flank-load", "Line load on the flank", "Xue 2020, Fig. 11", flank_load),
     Declaration("contact-temperature", "Contact temperature on the flank", "Xue 2020, Eq. 25", contact_temperature),

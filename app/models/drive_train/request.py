@@ -76,7 +76,10 @@ class TrainModifications(FlankModifications, of=mesh.Modifications):
 
 
 class TrainModel(
-    MeshModel, PumpingOptions, of=si.DriveTrainInputs, only=("face_stations", "coupling_friction", "bearing_film")
+    MeshModel,
+    PumpingOptions,
+    of=si.DriveTrainInputs,
+    only=("face_stations", "face_heat", "coupling_friction", "bearing_film"),
 ):
     """Choices that the papers leave open in the models, and the numerical resolution."""
 
@@ -428,11 +431,18 @@ class DriveTrainRequest(MeshInOil):
             | dict.fromkeys(("thermal.pinion_bulk_c", "thermal.wheel_bulk_c"), self.is_balanced)
             | dict.fromkeys(("cooling.pumping_w", "cooling.casing.mass_kg"), True)
             | dict.fromkeys(
+                ("cooling.jet_distribution", "pinion_shaft.gear_body", "wheel_shaft.gear_body"), not self._along_face()
+            )
+            | dict.fromkeys(
                 ("gears.apex_runout_um", "floating_shaft", "operation.axial_force_n", "modifications.second_helix"),
                 self.gears.gap_width_mm is None,
             )
             | {f"{self._floating()}_shaft.thrust_bearing": self.gears.gap_width_mm is not None}
         )
+
+    def _along_face(self) -> bool:
+        """Whether the temperatures follow the face."""
+        return self.is_balanced and self.model.face_heat != "uniform"
 
     def _floating(self) -> si.ShaftName:
         return self.floating_shaft or ("pinion" if self.gears.pinion.teeth <= self.gears.wheel.teeth else "wheel")

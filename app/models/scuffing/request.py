@@ -268,7 +268,8 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
             return False
 
     def unused(self) -> dict[str, bool]:
-        of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg")
+        along_the_face = ("cooling.jet_distribution", "cooling.measured.face")
+        of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg", *along_the_face)
         single = {"load.axial_force_n": self.gears.gap_width_mm is None}
         return super().unused() | dict.fromkeys(of_a_unit, True) | single
 

@@ -16,7 +16,7 @@ class CasingOfGears(Section, of=si.Casing):
 class MeasuredTemperatures(Section, of=si.Measured):
     """Temperatures measured in operation.
 
-    If the temperature of a gear is given, the wetting share follows from this temperature. If the temperature of the
+    If temperatures of a gear are given, the wetting share follows from them. If the temperature of the
     drained oil is given, the field `other_w` of the cooling follows from this temperature.
     """
 
@@ -25,7 +25,8 @@ class MeasuredTemperatures(Section, of=si.Measured):
     @property
     def of_a_gear(self) -> bool:
         """Whether a temperature of a gear is given."""
-        return any(getattr(self, name) is not None for group in self.exclusive for name in group)
+        names = (name for group in self.exclusive for name in group)
+        return bool(self.face) or any(getattr(self, name) is not None for name in names)
 
 
 class GearCooling(Section, of=si.Cooling):

@@ -26,7 +26,7 @@ def misalignment(
     states how much each cause contributes to the slope of the gap.
     """
     gap = equilibrium.gap[face]
-    even = _even_gap(inputs, unit, equilibrium, face) + _at_stations(thermal.lead, unit.stations.size)
+    even = _even_gap(inputs, unit, equilibrium, face) + _at_stations(thermal.even_lead, unit.stations.size)
     return Misalignment(
         shaft_slope=face_slope(gap),
         shaft_crown=face_crown(gap),

@@ -53,7 +53,9 @@ class ThermalLead:
 
     `lead` [m] is the gap at the stations; its mean is 0. `profile_slope` [m] is the profile slope that heat causes.
     Contact lines that are parallel without heat stay parallel only if lead and profile slope are applied together.
-    `base_pitch` [m] is the growth of the pinion's base pitch minus the growth of the wheel's base pitch.
+    `base_pitch` [m] is the growth of the pinion's base pitch minus the growth of the wheel's base pitch. `even_lead` is
+    the gap that remains while the load is spread evenly. `flanks` (gears, stations) [K] are the flanks along the face;
+    None if they are even.
     """
 
     lead: FloatArray
@@ -61,6 +63,8 @@ class ThermalLead:
     base_pitch: float
     pinion_rise: FloatArray
     wheel_rise: FloatArray
+    even_lead: FloatArray
+    flanks: FloatArray | None = None
 
 
 @lru_cache(maxsize=64)
@@ -107,8 +111,10 @@ def thermal_lead(inputs: DriveTrainInputs, path: PathOfContact, stations: FloatA
     difference = face_mean(pinion) - face_mean(wheel)
     excess = pinion * path.pitch_point + wheel * (path.pair.line_of_action - path.pitch_point)
     excess += path.plane.tan_base_helix * _integral(stations, pinion - wheel)
+    lead = face_mean(excess) - excess
     return ThermalLead(
-        lead=face_mean(excess) - excess,
+        lead=lead,
+        even_lead=lead,
         profile_slope=-difference * path.length,
         base_pitch=difference * path.plane.base_pitch,
         pinion_rise=rises[0],
@@ -119,7 +125,7 @@ def thermal_lead(inputs: DriveTrainInputs, path: PathOfContact, stations: FloatA
 def no_heat(stations: FloatArray) -> ThermalLead:
     """Return the thermal lead of gears at the reference temperature of the drawings: all values are zero."""
     nothing = np.zeros(stations.size)
-    return ThermalLead(nothing, 0.0, 0.0, nothing, nothing)
+    return ThermalLead(nothing, 0.0, 0.0, nothing, nothing, nothing)
 
 
 def _integral(stations: FloatArray, values: FloatArray) -> FloatArray:

@@ -46,6 +46,11 @@ class BulkRule:
     share: float | None
 
     @property
+    def weight(self) -> float:
+        """Share of a difference between two places of a flank, by the balance, that the contact takes."""
+        return 1.0 if self.method == "heat_balance" else self.share or 0.0
+
+    @property
     def takes_balance(self) -> bool:
         """Whether the heat balance can have an effect on the bulk temperature."""
         return self.method == "heat_balance" or (self.method is None and bool(self.share))

@@ -7,7 +7,7 @@ import pytest
 
 from solvers.contact import ehl
 from solvers.drive_train.gap.thermal_lead import no_heat
-from solvers.drive_train.safety import FlankHeat, flank_heat
+from solvers.drive_train.safety import FaceBulk, FlankHeat, flank_heat
 from solvers.lubricants import Lubricant
 from solvers.scuffing.inputs import Load, LoadDistributionInputs, ScuffingInputs, Temperatures, angular_speed
 from solvers.scuffing.model import solve
@@ -25,7 +25,8 @@ def heat_of(inputs: ScuffingInputs) -> FlankHeat:
     thermal = no_heat(np.linspace(0.0, inputs.distribution.gears.face_width, 11))
     distribution = solve(inputs.distribution)
     flash = map_flash(inputs.distribution, distribution)
-    return flank_heat(replace(turbo_gear(), mesh=inputs), distribution, flash, thermal)
+    unit = replace(turbo_gear(), mesh=inputs)
+    return flank_heat(unit, distribution, flash, FaceBulk(unit, thermal))
 
 
 def test_a_point_too_light_to_matter_keeps_the_verdict() -> None:

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from solvers.drive_train import outcome as outcomes
 from solvers.drive_train import solve
-from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, RigidBearing, Shaft
+from solvers.drive_train.inputs import DriveTrainInputs, RigidBearing
 from solvers.drive_train.results import DriveTrainResult
 from solvers.drive_train.unit_heat import warm_unit
 from solvers.drive_train.warm_up import _least_safety
@@ -17,38 +17,16 @@ from solvers.errors import NoSolution
 from solvers.gears.inputs import GearTeeth
 from solvers.heat_balance import Cooling
 from solvers.heat_balance.inputs import Casing, Measured
-from solvers.pumping.inputs import PumpingModel
 from tests.support.drive_trains import CELSIUS, GROUND, turbo_gear
+from tests.support.heated_units import balanced, cooled_units
 from tests.support.outcomes import codes
 from tests.support.properties import examples
-from tests.support.random_units import mirrored, reversed_ends, rotated, units
+from tests.support.random_units import mirrored, reversed_ends, rotated
 
 FLOW = 140.08 / 6e4
 
 
-def in_gear_oil(shaft: Shaft) -> Shaft:
-    """Return the shaft with its plain bearings in the oil of the gears."""
-    return replace(
-        shaft,
-        bearings=tuple(
-            replace(bearing, in_gear_oil=True) if isinstance(bearing, JournalBearing) else bearing
-            for bearing in shaft.bearings
-        ),
-    )
-
-
-def balanced(inputs: DriveTrainInputs, cooling: Cooling = Cooling()) -> DriveTrainInputs:  # noqa: B008  frozen
-    temperatures = replace(inputs.mesh.temperatures, bulk=None, bulk_method="heat_balance")
-    return replace(
-        inputs,
-        mesh=replace(inputs.mesh, temperatures=temperatures, cooling=cooling),
-        pinion_shaft=in_gear_oil(inputs.pinion_shaft),
-        wheel_shaft=in_gear_oil(inputs.wheel_shaft),
-        bulk_given=False,
-    )
-
-
-TURBO = balanced(turbo_gear(GROUND), Cooling(gear_flow=FLOW, band=False))
+TURBO = replace(balanced(turbo_gear(GROUND), Cooling(gear_flow=FLOW, band=False)), face_heat="uniform")
 
 
 @cache
@@ -158,22 +136,6 @@ def test_an_increaser_is_balanced_too() -> None:
         (temperatures(turbo())[0] + CELSIUS, temperatures(turbo())[2] + CELSIUS), abs=1.5
     )
     assert heat.balance.error == pytest.approx(0.0, abs=1e-9)
-
-
-@st.composite
-def cooled_units(draw: st.DrawFn) -> DriveTrainInputs:
-    """Draw units whose pumping uses their own gears, and whose temperatures follow from a heat balance."""
-    inputs = draw(units())
-    gears = replace(inputs.mesh.distribution.gears, rack_tip_radius=0.25)
-    pumping = replace(inputs.pumping, gears=gears, model=PumpingModel(slices=10))
-    casing = Casing(area=draw(st.sampled_from([None, 5.0])))
-    cooling = Cooling(
-        gear_flow=draw(st.one_of(st.none(), st.floats(40 / 6e4, 400 / 6e4))),
-        jets=draw(st.sampled_from(["into_mesh", "out_of_mesh"])),
-        wetting_share=draw(st.one_of(st.none(), st.floats(0.1, 1.0))),
-        casing=casing,
-    )
-    return balanced(replace(inputs, pumping=pumping), cooling)
 
 
 def outcome(inputs: DriveTrainInputs) -> DriveTrainResult | NoSolution:
