@@ -262,7 +262,8 @@ def test_without_friction_there_is_no_loop() -> None:
 
 
 def test_an_even_load_has_the_flanks_of_the_network() -> None:
-    loop, heat = loop_of(example()), example().heat
+    warm = warm_unit(changed(starter(), {f"{COOLING}.band": False}))
+    loop, heat = loop_of(warm), warm.heat
     even = loop.faces.solve(np.ones(loop.faces.nodes))
     means = [loop.faces.mean(flank) + loop.network.oil.inlet for flank in even.flanks]
     assert means == pytest.approx([heat.pinion.flank, heat.wheel.flank], abs=0.6)
