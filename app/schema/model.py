@@ -359,6 +359,10 @@ class Section(Documented):
         """
         return {}
 
+    def values_by_source(self) -> dict[str, str]:
+        """Return the fields of this section whose values were looked up for the request, and where they come from."""
+        return {}
+
     def stands_for_null(self, _name: str) -> Any:
         """Return the value that the calculation uses if the request leaves the field `_name` null.
 
