@@ -6,7 +6,6 @@ inputs of a calculation; answers state their tolerances.
 """
 
 from collections.abc import Iterable
-from itertools import product
 from typing import Any
 
 from app.errors import Unprocessable
@@ -49,16 +48,16 @@ def class_distributions(request: Request) -> list[Normal]:
 
 
 def class_corners(request: Request) -> dict[str, Axis]:
-    """Return one axis per slope with both ends of its tolerance, by the name of the slope; none without a class."""
+    """Return one axis per slope with both ends of its tolerance, by the name of the slope; none without a class.
+
+    Two helices move together: each of them meets both ends, and the worse one decides.
+    """
     tolerances = class_tolerances(request)
     slopes = {"helix slope": [HELIX, SECOND_HELIX], "profile slope": [PROFILE]}
     axes = {}
     for slope, paths in slopes.items() if tolerances else ():
         varied = [path for path in paths if path in tolerances]
-        ends = (
-            (_nominal(request, path) - tolerances[path], _nominal(request, path) + tolerances[path]) for path in varied
-        )
-        rows: list[Any] = [list(row) for row in product(*ends)]
+        rows = [[_nominal(request, path) + sign * tolerances[path] for path in varied] for sign in (-1, 1)]
         single = len(varied) == 1
         axes[slope] = Axis(path=varied[0] if single else varied, values=[row[0] for row in rows] if single else rows)
     return axes

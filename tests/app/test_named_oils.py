@@ -20,7 +20,11 @@ USES: dict[str, tuple[str, dict[str, Any], str]] = {
     "scuffing": ("/v1/scuffing", PAIR, "lubricant"),
     "line contact": ("/v1/scuffing/line-contact", CONTACT, "lubricant"),
     "unit": ("/v1/drive-train", UNIT, "lubricant"),
-    "coupling of a unit": ("/v1/drive-train", UNIT | {"lubricant": {"iso_vg": 46}}, "couplings.0.lubricant"),
+    "coupling of a unit": (
+        "/v1/drive-train",
+        changed(UNIT, {"lubricant": {"iso_vg": 46}, "couplings.0.friction": {}}),
+        "couplings.0.lubricant",
+    ),
 }
 OIL = named_oils()["Mobil SHC 626"]
 TYPED = {

@@ -13,7 +13,6 @@ from app.studies.kinds.sensitivity import Sensitivity
 from app.studies.kinds.spectrum import Spectrum
 from app.studies.requests import DRIVE_TRAIN
 from app.studies.tolerances import HELIX, PROFILE, SECOND_HELIX, class_corners, class_tolerances
-from solvers.drive_train.uncertainty import MOST_CORNERS
 from tests.support.requests import PAIR, changed, solved
 from tests.support.studies import fault_of, lines_of, timeless
 
@@ -98,24 +97,25 @@ def test_what_matters_moves_the_slopes_by_the_class() -> None:
 
 
 def test_corners_take_both_ends_of_the_class() -> None:
-    outputs = ["load.face_load_factor"]
-    kept = {"model": {**UNIT["model"], "slices": 8}}
-    study = Corners({"request": {**UNIT, **kept}, "outputs": outputs}, 2500, 30.0)
+    study = Corners({"request": UNIT, "outputs": [K]}, 2500, 30.0)
     axes = {axis.path: axis.values for axis in study.points.axes if isinstance(axis.path, str)}
     tolerance = class_tolerances(validated(BY_PATH[DRIVE_TRAIN].request, UNIT))
     for path in (HELIX, PROFILE):
         own = float(value_at(UNIT, path) or 0.0)
         assert axes[path] == pytest.approx([own - tolerance[path], own + tolerance[path]])
-    assert study.total <= MOST_CORNERS
-    plain = Corners({"request": changed(UNIT, {"gears": TURBO["gears"]}), "outputs": outputs}, 2500, 30.0)
+    plain = Corners({"request": changed(UNIT, {"gears": TURBO["gears"]}), "outputs": [K]}, 2500, 30.0)
     assert study.total == 4 * plain.total
 
 
 def test_two_helices_have_slopes_of_their_own() -> None:
     request = validated(BY_PATH[DRIVE_TRAIN].request, TWO)
     assert class_tolerances(request).keys() == {HELIX, SECOND_HELIX, PROFILE}
+    width = class_tolerances(request)[HELIX]
     axis = class_corners(request)["helix slope"]
     assert axis.path == [HELIX, SECOND_HELIX]
     assert axis.values is not None
-    assert len({tuple(row) for row in axis.values}) == 4
-    assert Corners({"request": TWO, "outputs": ["load.face_load_factor"]}, 2500, 30.0).total <= MOST_CORNERS
+    first, second = (value_at(TWO, path) or 0.0 for path in (HELIX, SECOND_HELIX))
+    assert axis.values == [[first - width, second - width], [first + width, second + width]]
+    plain = changed(TWO, {"gears.quality_class": None})
+    both, one = (Corners({"request": each, "outputs": [K]}, 2500, 30.0).total for each in (TWO, plain))
+    assert both == 4 * one

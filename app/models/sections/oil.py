@@ -130,10 +130,13 @@ class SheetOil(Section):
         return given | {name: value for name, value in values if value is not None and given.get(name) is None}
 
     def values_by_source(self) -> dict[str, str]:
-        oil = None if self.name is None else named_oils()[self.name]
-        found = {name: from_sheet(oil) for name in OF_A_NAME if oil and getattr(self, name) == getattr(oil, name)}
+        if self.name is None:
+            return {}
+        oil = named_oils()[self.name]
+        printed = ((name, getattr(oil, name)) for name in OF_A_NAME)
+        found = {name: from_sheet(oil) for name, value in printed if value is not None and getattr(self, name) == value}
         index = "kinematic_viscosity_100_mm2_per_s"
-        return found | ({index: found[index] + oil.index_remark} if oil and index in found else {})
+        return found | ({index: found[index] + oil.index_remark} if index in found else {})
 
     @model_validator(mode="after")
     def one_way(self) -> Self:

@@ -17,6 +17,7 @@ USUAL_RANGES = (
     "wall response, clearances of a shaft's plain bearings against each other, friction, direction of the offset and "
     "thrust of the couplings; with a quality class of the gears, also the slopes of helix and profile"
 )
+MOST = 4 * MOST_CORNERS  # the usual corners, at both ends of two slopes by the quality class
 
 
 class CornersRequest(DriveTrainStudy):
@@ -31,7 +32,7 @@ class CornersRequest(DriveTrainStudy):
 
 
 class Corners(Sweep):
-    """Study of a gear unit at every corner, for at most 256 corners.
+    """Study of a gear unit at every corner, for at most 1024 corners.
 
     A corner is a combination of the values of the uncertain inputs. The answer has one line of text per corner, and one
     line of the type `extremes` per output with the least and the largest value of this output.
@@ -61,7 +62,7 @@ class Corners(Sweep):
                 "no input of this gear unit is uncertain; list the uncertain inputs in the field 'ranges'",
                 "ranges",
             )
-        return grid(ranges, base, min(most, MOST_CORNERS), "ranges")
+        return grid(ranges, base, min(most, MOST), "ranges")
 
     def _closing(self, summary: Summary, end: Line) -> list[Line]:
         """Return the last lines of the answer: one line `extremes` per output, and the line `end`.
