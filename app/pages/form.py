@@ -364,9 +364,13 @@ def _options(leaf: Leaf, text: str, used: Any) -> tuple[tuple[str, str], ...]:
     if not named:
         return ()
     default = "" if leaf.default is None else text_of(leaf.default)
+    if used is not None and not text and text_of(used) != default:
+        default = ""  # another value than the default was looked up, such as the kind of a named oil
     if default not in named:
         open_label = (
-            cited(leaf.declared.default_text or "choose …") if used is None else f"by default: {words(text_of(used))}"
+            cited(leaf.declared.default_text or "choose …")
+            if used is None or text
+            else f"by default: {named.get(text_of(used), words(text_of(used)))}"
         )
         named = {"": open_label, **named}
     if text:

@@ -1,7 +1,7 @@
 """Sections that describe an oil by its grade, by its data sheet, or by its viscosity."""
 
 from dataclasses import fields, replace
-from typing import Annotated, Any, ClassVar, Literal, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import BeforeValidator, model_validator
 from pydantic_core import PydanticCustomError
@@ -41,7 +41,10 @@ def _known_name(text: Any) -> Any:
     return names[text.casefold()]
 
 
-OilName = Annotated[Literal[*named_oils()], BeforeValidator(_known_name)]  # type: ignore[valid-type]
+if TYPE_CHECKING:
+    OilName = str
+else:
+    OilName = Annotated[Literal[*named_oils()], BeforeValidator(_known_name)]
 
 
 RARELY = "by the kind of oil; few data sheets state it"
