@@ -282,10 +282,10 @@ def _blocks(branch: Branch, prefix: str, state: FormState) -> Iterator[Block]:
 
 
 def _choices(branch: Branch) -> dict[str, tuple[Leaf, ...]]:
-    """Return the groups of alternative fields. Only one field of each group may be given."""
+    """Return the groups of alternative fields. The form shows one field of each group at a time."""
     fields = {_last(leaf.path): leaf for leaf in branch.leaves}
     choices: dict[str, tuple[Leaf, ...]] = {}
-    for group in branch.model.exclusive:
+    for group in (*branch.model.alternatives, *branch.model.exclusive):
         if all(name in fields and fields[name].path not in choices for name in group):
             members = tuple(fields[name] for name in group)
             choices |= {leaf.path: members for leaf in members}

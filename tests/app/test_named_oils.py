@@ -105,7 +105,7 @@ def test_other_names_are_refused_with_the_nearest_ones(use: str, name: Any) -> N
     assert set(near) <= set(named_oils())
 
 
-@pytest.mark.parametrize("other", [{"iso_vg": 46}, {"viscosity_pa_s": 0.02}])
+@pytest.mark.parametrize("other", [{"iso_vg": 46}, {"viscosity_pa_s": 0.02}, {"reference_temperature_c": 60}])
 def test_a_name_is_no_second_description(other: dict[str, Any]) -> None:
     _, code, message = refused("scuffing", {"name": OIL.name, **other})
     assert code == "exclusive"

@@ -76,6 +76,7 @@ class SheetOil(Section):
         ("name", "iso_vg"),
         ("name", "viscosity_pa_s"),
     )
+    alternatives: ClassVar = (("iso_vg", "name", "viscosity_pa_s", "kinematic_viscosity_40_mm2_per_s"),)
 
     name: Annotated[
         OilName | None,
@@ -126,8 +127,9 @@ class SheetOil(Section):
     def values_of_the_named_oil(cls, given: Any) -> Any:
         """Fill in the values of the data sheet that the name stands for, where the request gives none."""
         oil = of_name(given)
-        if oil is None or any(given.get(name) is not None for name in ("iso_vg", "viscosity_pa_s")):
-            return given  # a second description of the oil is refused later
+        second = ("iso_vg", "viscosity_pa_s", "reference_temperature_c")
+        if oil is None or any(given.get(name) is not None for name in second):
+            return given  # what does not go with a name is refused later
         left_out = {"kinematic_viscosity_100_mm2_per_s"} if given.get("viscosity_index") is not None else set()
         values = ((name, getattr(oil, name)) for name in OF_A_NAME if name not in left_out)
         return given | {name: value for name, value in values if value is not None and given.get(name) is None}
@@ -225,8 +227,7 @@ class Oil(SheetOil, of=Lubricant):
 
     exclusive: ClassVar = (
         *SheetOil.exclusive,
-        ("reference_temperature_c", *DESCRIBED[1:]),
-        ("reference_temperature_c", DESCRIBED[0]),
+        ("reference_temperature_c", "iso_vg", "kinematic_viscosity_40_mm2_per_s"),
         ("pressure_viscosity_per_gpa", "pressure_viscosity_38_per_gpa"),
     )
 
@@ -280,7 +281,9 @@ class Oil(SheetOil, of=Lubricant):
 
     @model_validator(mode="after")
     def one_reference(self) -> Self:
-        """Refuse a density together with a grade or data sheet."""
+        """Refuse a reference temperature beside a name, and a density together with a grade or data sheet."""
+        if self.name is not None and self.reference_temperature_c is not None:
+            raise PydanticCustomError("exclusive", "name and reference_temperature_c are both given; keep one")
         if self.by_sheet and self.density_kg_per_m3 is not None:
             raise PydanticCustomError(
                 "exclusive",
