@@ -38,7 +38,7 @@ class NamedOil:
 
     @property
     def computed_index(self) -> float:
-        """Viscosity index that follows from the printed viscosities [-] (Eq. R2)."""
+        """Viscosity index that follows from the printed viscosities (ASTM D2270) [-]."""
         viscosities = self.kinematic_viscosity_40_mm2_per_s, self.kinematic_viscosity_100_mm2_per_s
         return viscosity_index(*(value * SQUARE_MILLIMETRE for value in viscosities))
 

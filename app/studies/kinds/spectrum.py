@@ -192,14 +192,16 @@ class Spectrum(Study):
     def _planned(self, base: BaseRequest, most: int) -> int:
         body = self.body
         set_by_cases = fields_set([case.set for case in body.cases], base, "cases.{}.set")
-        inputs, self.by_class = self._inputs(base, set_by_cases)
-        given = body.tolerances or Tolerances()
-        tolerances = self.tolerances = given.model_copy(update={"inputs": inputs}) if inputs else None
-        self.scattering = scattering(inputs, base, "tolerances.inputs")
+        given = list(body.tolerances.inputs or ()) if body.tolerances else []
+        self.scattering = scattering(given, base, "tolerances.inputs")
         for place, leaf in enumerate(self.scattering):
             if leaf.path in set_by_cases:
                 message = f"{leaf.path} has both a value in a case and a tolerance; give only one of the two"
                 raise Unprocessable("duplicate_path", message, f"tolerances.inputs.{place}.path")
+        inputs = [*given, *self._by_class(given, base, set_by_cases)]
+        self.scattering = scattering(inputs, base, "tolerances.inputs")
+        drawn_from = body.tolerances or Tolerances()
+        tolerances = self.tolerances = drawn_from.model_copy(update={"inputs": inputs}) if inputs else None
         scuffing = base.calculation.words.scuffing
         if body.limits is None and scuffing:  # the default limit needs the scuffing temperature
             columns = dict.fromkeys([*self.question.outputs, *scuffing])
@@ -217,22 +219,20 @@ class Spectrum(Study):
         self.machines = _machines(tolerances, self.scattering) if tolerances else np.empty((1, 0))
         return total
 
-    def _inputs(self, base: BaseRequest, set_by_cases: Iterable[str]) -> tuple[list[Scatter], list[Line]]:
-        """Return the distributions of the study, and what is assumed by the quality class of the gears.
+    def _by_class(self, given: list[Scatter], base: BaseRequest, set_by_cases: Iterable[str]) -> list[Scatter]:
+        """Return the distributions by the quality class of the gears, and note what is assumed by it.
 
-        A field that the body lists or a case sets does not scatter by the class.
+        A field that the body lists or a case sets does not scatter by the class. Raises Unprocessable if the body has
+        tolerances, but nothing scatters.
         """
-        tolerances = self.body.tolerances
-        given = list(tolerances.inputs or []) if tolerances else []
         typical = {scatter.path: next(iter(anchors(scatter).values())) for scatter in given}
-        request = base.checked({**typical, **self.body.cases[0].set})
-        taken = {*typical, *set_by_cases}
-        by_class = [scatter for scatter in class_distributions(request) if scatter.path not in taken]
-        if tolerances and not given and not by_class:
+        request, taken = base.checked({**typical, **self.body.cases[0].set}), {*typical, *set_by_cases}
+        widths = {path: width for path, width in class_tolerances(request).items() if path not in taken}
+        if self.body.tolerances and not (given or widths):
             message = "give the distributions of fields that scatter, or a quality class of the gears"
             raise Unprocessable("missing", message, "tolerances.inputs")
-        wide = {path: width for path, width in class_tolerances(request).items() if path not in taken}
-        return [*given, *by_class], class_assumptions(request, wide)
+        self.by_class = class_assumptions(request, widths)
+        return [scatter for scatter in class_distributions(request) if scatter.path in widths]
 
     def overrides(self, index: int) -> Overrides:
         """Return the values that a point changes in the base request. The keys are the paths of the values.
