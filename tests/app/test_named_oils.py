@@ -9,8 +9,10 @@ from app.errors import InvalidBody
 from app.examples import examples
 from app.schema.fields import leaf_at, value_at
 from app.schema.reading import validated
+from app.studies.kinds.sweep import Sweep
 from solvers.named_oils import named_oils
 from tests.support.requests import CONTACT, COUPLING, PAIR, changed, solved
+from tests.support.studies import lines_of
 
 UNIT: dict[str, Any] = changed(
     examples()["starter-turbo-gear-drive-train"].request, {"model.lubrication": "closed_form", "lubricant": {}}
@@ -55,6 +57,7 @@ def test_a_name_is_the_data_sheet(use: str) -> None:
         assert by_name.get(name) == typed.get(name), name
     path = USES[use][2]
     assert value_at(by_name["inputs"], path) == value_at(typed["inputs"], path) | {"name": OIL.name}
+    assert solved(USES[use][0], by_name["inputs"])["case"] == by_name["case"]  # as the answer's inputs are posted again
     said = {each["field"]: each for each in by_name["assumptions"] if OIL.source in each["reason"]}
     assert {field: each["value"] for field, each in said.items()} == {
         f"{path}.{name}": value for name, value in TYPED.items()
@@ -126,6 +129,17 @@ def test_the_load_stages_of_the_sheet_are_used_where_none_is_given() -> None:
     measured = answer("scuffing", oil, **{"temperatures.scuffing_c": 300})
     assert measured["inputs"]["temperatures"]["scuffing_test"] is None
     assert answer("scuffing", {"name": OIL.name})["safety"] is None  # its sheet prints no stage
+
+
+def test_names_can_be_swept() -> None:
+    names = ["Mobil DTE 732", "Mobil SHC 632"]
+    graded = {"endpoint": "/v1/coupling", "request": changed(COUPLING, {"lubricant": {"iso_vg": 46}})}
+    axis = {"path": "lubricant.name", "values": names}
+    study = Sweep({**graded, "vary": [axis], "outputs": ["derived.viscosity_pa_s"]}, 2500, 30.0)
+    found = [line["out"][0] for line in lines_of(study) if line["type"] == "point"]
+    single = [answer("coupling", {"name": name})["derived"]["viscosity_pa_s"] for name in names]
+    assert found == single
+    assert found[0] < found[1]
 
 
 def test_the_names_are_a_menu() -> None:

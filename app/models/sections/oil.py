@@ -26,19 +26,26 @@ def _names_a_sheet(given: dict[str, Any]) -> bool:
     return any(given.get(name) is not None for name in DESCRIBED)
 
 
-def _known_name(text: Any) -> Any:
+BY_NAME = {name.casefold(): oil for name, oil in named_oils().items()}
+
+
+def of_name(given: Any) -> NamedOil | None:
+    """Return the oil that the fields sent for an oil name; None without a name, or with an unknown one."""
+    name = given.get("name") if isinstance(given, dict) else None
+    return BY_NAME.get(name.casefold()) if isinstance(name, str) else None
+
+
+def _known_name(text: Any) -> str:
     """Return the name as the table writes it. Anything else is refused with the most similar names."""
-    names = {name.casefold(): name for name in named_oils()}
-    text = text if isinstance(text, str) else ""
-    if text.casefold() not in names:
-        near = "; ".join(nearest_names(text))
+    oil = of_name({"name": text})
+    if oil is None:
         raise PydanticCustomError(
             "unknown_oil",
             "no data sheet of this name was read; the nearest are {near}. Any other oil: leave out the name, and enter "
             "the viscosities of its data sheet",
-            {"near": near},
+            {"near": "; ".join(nearest_names(text if isinstance(text, str) else ""))},
         )
-    return names[text.casefold()]
+    return oil.name
 
 
 if TYPE_CHECKING:
@@ -205,13 +212,6 @@ OF_A_NAME = (
     "density_15_kg_per_m3",
 )
 """The fields that follow from the name of an oil; `NamedOil` has the same names."""
-
-
-def of_name(given: Any) -> NamedOil | None:
-    """Return the oil that the fields sent for an oil name; None without a name, or with an unknown one."""
-    name = given.get("name") if isinstance(given, dict) else None
-    known = {each.casefold(): oil for each, oil in named_oils().items()}
-    return known.get(name.casefold()) if isinstance(name, str) else None
 
 
 def from_sheet(oil: NamedOil) -> str:
