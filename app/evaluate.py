@@ -180,18 +180,23 @@ def case_of(endpoint: str, inputs: dict[str, Any], sources: str) -> str:
 def _assumptions(
     section: Section, derived: dict[str, Any], prefix: str = "", unused: frozenset[str] = frozenset()
 ) -> Iterator[dict[str, Any]]:
-    """Yield the field, the value and the reason of each default that is our own choice and affects the result.
+    """Yield the field, the value and the reason of each default of our choice, and of each value that was looked up.
+
+    Values without effect on the result are left out.
 
     `derived` holds the values that the calculation used, by the names of the fields. `prefix` is put before the names
     of the fields of `section`. `unused` holds the dotted names of fields without effect on the result.
     """
     unused |= {prefix + name for name, left_out in section.unused().items() if left_out}
+    looked_up = section.values_by_source()
     for member in members(type(section)):
         name, reason = member.name, member.meaning.assumed
-        if not (reason or member.group) or (path := prefix + name) in unused:
+        if not (reason or member.group or name in looked_up) or (path := prefix + name) in unused:
             continue
         value = getattr(section, name)
-        if isinstance(value, Section):
+        if name in looked_up:
+            yield {"field": path, "value": value, "reason": looked_up[name]}
+        elif isinstance(value, Section):
             yield from _assumptions(value, derived.get(name, derived) or {}, f"{path}.", unused)
         elif isinstance(value, list) and member.group:
             derived_items = derived.get(name) or [{}] * len(value)

@@ -52,13 +52,13 @@ def digest_of(package: Path) -> str:
     digest = sha256()
     for path in _sources(package):
         digest.update(f"{path.relative_to(package).as_posix()}\n".encode())
-        digest.update(path.read_bytes() if path.suffix == ".csv" else ast.dump(_without_prose(path)).encode())
+        digest.update(path.read_bytes() if path.suffix != ".py" else ast.dump(_without_prose(path)).encode())
     return digest.hexdigest()
 
 
 def _sources(package: Path) -> list[Path]:
     """Return the modules, and the tables that they read."""
-    return sorted([*package.rglob("*.py"), *package.rglob("*.csv")])
+    return sorted(path for kind in ("py", "csv", "json") for path in package.rglob(f"*.{kind}"))
 
 
 def _without_prose(path: Path) -> ast.Module:

@@ -279,10 +279,10 @@ def _blocks(branch: Branch, prefix: str, state: FormState) -> Iterator[Block]:
 
 
 def _choices(branch: Branch) -> dict[str, tuple[Leaf, ...]]:
-    """Return the groups of alternative fields. Only one field of each group may be given."""
+    """Return the groups of alternative fields. The form shows one field of each group at a time."""
     fields = {_last(leaf.path): leaf for leaf in branch.leaves}
     choices: dict[str, tuple[Leaf, ...]] = {}
-    for group in branch.model.exclusive:
+    for group in (*branch.model.alternatives, *branch.model.exclusive):
         if all(name in fields and fields[name].path not in choices for name in group):
             members = tuple(fields[name] for name in group)
             choices |= {leaf.path: members for leaf in members}
@@ -361,9 +361,13 @@ def _options(leaf: Leaf, text: str, used: Any) -> tuple[tuple[str, str], ...]:
     if not named:
         return ()
     default = "" if leaf.default is None else text_of(leaf.default)
+    if used is not None and not text and text_of(used) != default:
+        default = ""  # another value than the default was looked up, such as the kind of a named oil
     if default not in named:
         open_label = (
-            cited(leaf.declared.default_text or "choose …") if used is None else f"by default: {words(text_of(used))}"
+            cited(leaf.declared.default_text or "choose …")
+            if used is None or text
+            else f"by default: {named.get(text_of(used), words(text_of(used)))}"
         )
         named = {"": open_label, **named}
     if text:

@@ -160,9 +160,10 @@ def _renumbered(path: str, pairs: Pairs) -> Pairs:
 
 
 def excluded(name: str, leaf: Leaf) -> tuple[str, ...]:
-    """Return the names of all fields and sections that must be empty if the field `name` is given."""
+    """Return the names of all fields and sections that a form leaves out if the field `name` is chosen."""
     section = name.rpartition(".")[0]
-    return tuple(f"{section}.{fellow.rpartition('.')[2]}".lstrip(".") for fellow in leaf.exclusive)
+    fellows = dict.fromkeys((*leaf.exclusive, *leaf.alternatives))
+    return tuple(f"{section}.{fellow.rpartition('.')[2]}".lstrip(".") for fellow in fellows)
 
 
 def body_of(model: type[Documented], pairs: Pairs) -> dict[str, Any]:

@@ -12,6 +12,8 @@ from app.studies.requests import DRIVE_TRAIN
 
 UNCERTAIN = ("wall response", "pinion clearance", "wheel clearance", "friction", "offset", "thrust fraction")
 """The inputs of a gear unit that can be uncertain."""
+BY_CLASS = ("helix slope", "profile slope")
+"""What is uncertain by the quality class of the gears, and not while a correction is searched."""
 # Some controls have values that are not single numbers.
 CORNER = "corner."  # start of the name of a control that lists the values of an uncertain input
 CASES = "cases"  # name of the control with the table of cases
@@ -57,14 +59,14 @@ CORNERS = StudyLink(
     "corners",
     "Worst corner",
     "every combination of the uncertain inputs: where the result is worst",
-    frozenset(map(control_of, UNCERTAIN)),
+    frozenset(map(control_of, (*UNCERTAIN, *BY_CLASS))),
     DRIVE_TRAIN,
 )
 DESIGN = StudyLink(
     "design",
     "What to grind",
     "the flank correction whose worst corner is best",
-    CORNERS.controls | _named(("low.", "high."), "01234") | {"trials"},
+    frozenset(map(control_of, UNCERTAIN)) | _named(("low.", "high."), "01234") | {"trials"},
     DRIVE_TRAIN,
 )
 LINKS = (VARY, INFLUENCE, SPECTRUM, CORNERS, DESIGN)

@@ -15,6 +15,7 @@ ISO_53_A = {"addendum": 1.0, "dedendum": 1.25, "rack_tip_radius": 0.38}  # coeff
 SAME = 1e-6  # two stated numbers count as equal if their difference is smaller than this; chosen
 OFF_CENTRE = 1e-3  # tolerated error of positions, which are often rounded, as a share of the centre distance; chosen
 MOST_INVOLUTE = 1e8  # only absurd profile shifts give larger involute functions; the inverse function works up to 1e9
+COARSEST_CLASS = 11  # of ISO 1328-1:2013, whose finest class is 1
 NORMAL_ANGLE = 20.0  # normal pressure angle of ISO 53 [deg]
 ROLES = ("pinion", "wheel")
 TORQUE, SPEED = "load.pinion_torque_n_m", "load.pinion_speed_rpm"
@@ -107,6 +108,7 @@ class StageDraft(Draft):
             self._rack(place)
         self._rack_tip_radius()
         self._backlash()
+        self._quality_class()
         self._axes()
         self._load()
         for place, role in enumerate(ROLES):
@@ -279,6 +281,23 @@ class StageDraft(Draft):
             reason = "computed as the transverse module times the cosine of the helix angle"
             self.note(table.MODULE.field, modules[0][0] * cosine, reason)
         return [(value * cosine, gear) for value, gear in modules]
+
+    def _quality_class(self) -> None:
+        """Fill in the quality class. If the gears have different classes, the coarser one is used."""
+        row, classes = table.QUALITY_CLASS, self.values_of(self.gears, table.QUALITY_CLASS)
+        if not classes:
+            return
+        coarsest, gear = max(classes, key=lambda each: each[0])
+        if coarsest not in range(1, COARSEST_CLASS + 1):
+            message = (
+                f"the quality class must be a whole number from 1 to {COARSEST_CLASS}; {coarsest:.4g} is not used and "
+                "the flanks have no tolerances"
+            )
+            self.reading.find("quality_class", gear, row.name, message)
+            return
+        self.put(row.field, int(coarsest), gear, row.name)
+        if min(classes, key=lambda each: each[0])[0] != coarsest:
+            self.note(row.field, int(coarsest), "the coarser class of both gears is used")
 
     def _helix(self) -> None:
         row, gear = table.HELIX_ANGLE, self.gears[0]

@@ -120,6 +120,7 @@ HELIX_ANGLE = Row("gears.helix_angle_deg", ("helix_angle_reference_diameter",), 
 PRESSURE_ANGLE = Row("gears.pressure_angle_deg", ("normal_pressure_angle",), "deg")
 BASE_HELIX_ANGLE = Row("gears.helix_angle_deg", ("helix_angle_base_diameter", "helix_angle_base_circle"), "deg")
 TRANSVERSE_PRESSURE_ANGLE = Row("gears.pressure_angle_deg", ("pressure_angle_in_the_transverse_section",), "deg")
+QUALITY_CLASS = Row("gears.quality_class", ("global_tolerance_class_iso_1328_2013",))
 TIP_DIAMETER_LIMITS = ("minimum_tip_diameter", "maximum_tip_diameter")
 PROFILE_SHIFT = Row("profile_shift", ("addendum_modification_coefficient",))
 FINISHED_SHIFT = Row(
@@ -258,7 +259,7 @@ _RESULTS = (
 _ROWS = (
     *STAGE, *MATERIAL, *HEAT, *OIL, PRESSURE_VISCOSITY_38, MODULE, TRANSVERSE_MODULE, FACE_WIDTH, COMMON_WIDTH,
     PROFILE_SHIFT, FINISHED_SHIFT, BASIC_ADDENDUM, BASIC_ADDENDUM_LENGTH, TIP_DIAMETER, ROOT_DIAMETER, ROUGHNESS,
-    MEAN_PEAK_TO_VALLEY, OIL_TEMPERATURE, BULK_TEMPERATURE, FRICTION, GEAR_TORQUE, GEAR_SPEED,
+    MEAN_PEAK_TO_VALLEY, OIL_TEMPERATURE, BULK_TEMPERATURE, FRICTION, GEAR_TORQUE, GEAR_SPEED, QUALITY_CLASS,
 )  # fmt: skip
 _TAKEN = {name for row in _ROWS for name in row.attributes}
 _TAKEN |= {*BACKLASH, *TRANSVERSE_BACKLASH, *OIL_TYPES, *OIL_WORDS, *OIL_SUPPLY, *FRICTION_METHODS, *MODIFICATIONS}

@@ -33,8 +33,9 @@ class Leaf:
     `declared` says what the field means. `view` says how pages show and judge a result in this field. `title` is
     unique within the request or answer. If several fields are declared with the same title, the title of a section is
     therefore added to the `title` of each of these fields. `dimensions` is 0 for a scalar, 1 for a list and 2 for a
-    matrix. `axes` holds the full paths of the fields that are the axes, one path per dimension. `axes` is empty if the
-    field has no axes.
+    matrix. `exclusive` and `alternatives` hold the full paths of the fields that stand in a group with this one
+    (`Documented`). `axes` holds the full paths of the fields that are the axes, one path per dimension. `axes` is empty
+    if the field has no axes.
     """
 
     path: str
@@ -50,6 +51,7 @@ class Leaf:
     options: tuple[Any, ...]
     advanced: bool
     exclusive: tuple[str, ...]
+    alternatives: tuple[str, ...]
     detail: Detail
     axes: tuple[str, ...]
 
@@ -290,8 +292,12 @@ def _leaf(place: Place, title: str) -> Leaf:
     """
     member, prefix = place.member, place.path.rpartition(".")[0]
     info, meaning, options = member.info, member.meaning, next(filter(None, map(options_of, member.kinds)), ())
-    groups: tuple[tuple[str, ...], ...] = getattr(member.model, "exclusive", ())
-    fellows = (name for group in groups if member.name in group for name in group if name != member.name)
+
+    def fellows(kind: str) -> tuple[str, ...]:
+        groups: tuple[tuple[str, ...], ...] = getattr(member.model, kind, ())
+        names = (name for group in groups if member.name in group for name in group if name != member.name)
+        return tuple(_absolute(name, prefix) for name in names)
+
     details = (step.meaning.detail for step in reversed(place.way) if step.meaning.detail != "summary")
     return Leaf(
         path=place.path,
@@ -306,7 +312,8 @@ def _leaf(place: Place, title: str) -> Leaf:
         default=None if info.is_required() else info.get_default(call_default_factory=True),
         options=options,
         advanced=any(step.meaning.advanced for step in place.way),
-        exclusive=tuple(_absolute(fellow, prefix) for fellow in fellows),
+        exclusive=fellows("exclusive"),
+        alternatives=fellows("alternatives"),
         detail=next(details, "summary"),
         axes=tuple(_absolute(axis, prefix) for axis in meaning.axes) if isinstance(meaning, Output) else (),
     )

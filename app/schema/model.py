@@ -51,13 +51,15 @@ T = TypeVar("T")
 class Documented(BaseModel):
     """A model whose fields are filled from the declarations of dataclasses.
 
-    `exclusive` lists groups of field names. At most one field of each group may be given. `member_unit` is the unit of
+    `exclusive` lists groups of field names. At most one field of each group may be given. `alternatives` lists groups
+    of which a form shows one field at a time, although several may be given. `member_unit` is the unit of
     all fields whose own names state no unit. For example, the fields of the section `mass_flow_g_per_s` are in g/s,
     because the name of the section states this unit. `views` says how pages show and judge
     outputs. The keys of `views` are the solver's names of the outputs.
     """
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = ()
+    alternatives: ClassVar[tuple[tuple[str, ...], ...]] = ()
     member_unit: ClassVar[str | None] = None
     views: ClassVar[dict[str, Any]] = {}
     declares: ClassVar[type[Input] | type[Output]] = Input
@@ -353,6 +355,10 @@ class Section(Documented):
         The keys are dotted names that start below this section. A value is True if the field or subsection has no
         effect.
         """
+        return {}
+
+    def values_by_source(self) -> dict[str, str]:
+        """Return the fields of this section whose values were looked up for the request, and where they come from."""
         return {}
 
     def stands_for_null(self, _name: str) -> Any:

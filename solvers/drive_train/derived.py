@@ -2,6 +2,7 @@
 
 from solvers.coupling.inputs import Coupling
 from solvers.drive_train.inputs import DriveTrainInputs, JournalBearing, Shaft, ShaftName
+from solvers.gears.tolerances import FlankTolerances
 from solvers.heat_balance import Heat, cooling_in_force
 from solvers.heat_balance.results import CoolingInForce
 from solvers.lubricants import OilInUse, oil_in_use
@@ -108,6 +109,9 @@ class Derived:
         default=None,
         left_out=True,
     )
+    tolerances: FlankTolerances | None = quantity(
+        "tolerances of the quality class", text="left out without a quality class", default=None, left_out=True
+    )
 
 
 def derived(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: BulkInForce, heat: Heat | None = None) -> Derived:
@@ -146,6 +150,7 @@ def derived(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: BulkInForce,
         ),
         cooling=None if heat is None else cooling_in_force(inputs.mesh.cooling, heat),
         total_face_width=lengths.total_face_width,
+        tolerances=lengths.tolerances,
     )
 
 

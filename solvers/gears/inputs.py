@@ -5,7 +5,7 @@ from typing import Literal
 
 from solvers.errors import InvalidInput
 from solvers.quantity import quantities, quantity, record
-from solvers.sources import ISO_21771
+from solvers.sources import ISO_1328, ISO_21771
 
 GROUND_FILLET = 0.25  # usual tip radius of the rack for ground teeth, in normal modules
 RACK_A = 0.38  # tip radius of rack A of ISO 53, in normal modules; assumed if the tooth stiffness matters
@@ -146,6 +146,18 @@ class GearPairInputs:
         tolerance=0.02,
         text="tip radius coefficient of the rack, at most the full radius",
         assumed="a usual ground fillet; the paper gives none",
+    )
+    quality_class: int | None = quantity(
+        "quality class",
+        "A",
+        ISO_1328,
+        kw_only=True,
+        default=None,
+        ge=1,
+        le=11,
+        text="flank tolerance class of both gears: what studies scatter; the nominal flanks stay as they are",
+        default_text="no tolerances",
+        if_above="classes end at 11; the grade 12 of older editions has other tolerances",
     )
 
     @property

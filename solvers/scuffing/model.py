@@ -10,6 +10,7 @@ from solvers.contact.hertz import reduced_modulus
 from solvers.gears.diameters import diameters_of
 from solvers.gears.gear import rack_tip_radius
 from solvers.gears.pair import PathOfContact, meshing_path
+from solvers.gears.tolerances import flank_tolerances
 from solvers.scuffing.contact_lines import ContactLengths, RollPositions, contact_lengths, roll_positions
 from solvers.scuffing.contact_slices import Mesh, Peak, largest, reaches_base_circle
 from solvers.scuffing.flank_results import face_load_factor, feature_line, flank
@@ -150,6 +151,7 @@ def _derived(path: PathOfContact, form: Gap, load: Load) -> Derived:
         end_relief_length=form.end_relief_length,
         rack_tip_radius=min(rack_tip_radius(pair, teeth) for teeth in (pair.pinion, pair.wheel)),
         total_face_width=None if pair.helices == 1 else pair.total_width,
+        tolerances=flank_tolerances(pair),
     )
 
 

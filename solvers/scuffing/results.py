@@ -10,6 +10,7 @@ from functools import cached_property
 from solvers.arrays import BoolArray, FloatArray, frozen
 from solvers.gears.diameters import Diameters
 from solvers.gears.pair import PathOfContact
+from solvers.gears.tolerances import FlankTolerances
 from solvers.notices import Notice
 from solvers.quantity import computed, quantity, record
 from solvers.scuffing.load_balance import LoadBalance
@@ -408,6 +409,9 @@ class Derived:
         text="both helices and the gap; left out without two helices",
         default=None,
         left_out=True,
+    )
+    tolerances: FlankTolerances | None = quantity(
+        "tolerances of the quality class", text="left out without a quality class", default=None, left_out=True
     )
 
 

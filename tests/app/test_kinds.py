@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from solvers.lubricants import OilKind
-from solvers.oils import GRADES, KINDS, TYPICAL_INDEX
+from solvers.oils import GRADES, KINDS, SQUARE_MILLIMETRE, typical_index
 from solvers.scuffing.thermal.practice import OIL_KIND_FACTOR, OIL_KIND_LOSS_FACTOR, OIL_SUPPLY_FACTOR
 from tests.app.test_defaults import STAGE, TURBO, codes
 from tests.support.requests import CONTACT, COUPLING, changed, solved
@@ -68,9 +68,10 @@ def test_every_default_by_the_kind_of_oil_differs_from_a_mineral_oil_s(use: str,
 def test_an_oil_has_the_index_and_the_properties_of_its_kind(use: str, kind: OilKind) -> None:
     known = KINDS[kind]
     by_grade, by_viscosity = (answer(use, {**sheet, "kind": kind}) for sheet in SHEETS.values())
-    low, high = (94.0, 102.5) if kind == "mineral" else (TYPICAL_INDEX[kind] - 1e-6, TYPICAL_INDEX[kind] + 1e-6)
+    typical = typical_index(kind, 150 * SQUARE_MILLIMETRE)
+    low, high = (94.0, 102.5) if kind == "mineral" else (typical - 1e-6, typical + 1e-6)
     assert low <= of_the_oil(use, by_grade)["viscosity_index"] <= high
-    assert of_the_oil(use, by_viscosity)["viscosity_index"] == pytest.approx(TYPICAL_INDEX[kind], abs=1e-6)
+    assert of_the_oil(use, by_viscosity)["viscosity_index"] == pytest.approx(typical, abs=1e-6)
     for found in (by_grade, by_viscosity):
         derived, path = of_the_oil(use, found), USES[use][2]
         assert assumed(found, "kind of oil", path)[f"{path}.density_15_kg_per_m3"] == known.density_15

@@ -58,6 +58,14 @@ def edited(text: str, offers: list[str] | None) -> str:
     return ",".join(items)
 
 
+def test_an_oil_is_picked_by_its_name() -> None:
+    name = "starter-high-speed-scuffing"  # its oil is a grade, whose text stays in the form
+    choice = {"pick:lubricant.iso_vg": "lubricant.name", "lubricant.name": "Mobil SHC 624"}
+    pairs = [(field, choice.get(field, text)) for field, text in form_of(name)[0]]
+    found = {path: value for path, value in sent(name, pairs).items() if path.startswith("lubricant.")}
+    assert found == {"lubricant.name": "Mobil SHC 624"}
+
+
 @pytest.mark.parametrize("name", one_per_endpoint(examples()))
 def test_the_form_sends_the_case(name: str) -> None:
     pairs, _ = form_of(name)

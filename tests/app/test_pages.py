@@ -181,13 +181,13 @@ def test_exclusive_fields_are_a_choice_and_the_chosen_one_counts() -> None:
 
 
 @pytest.mark.parametrize("path", ["/coupling", "/scuffing", "/scuffing/line-contact", "/drive-train"])
-def test_the_oil_is_given_in_one_of_three_ways(path: str) -> None:
+def test_the_oil_is_given_in_one_of_four_ways(path: str) -> None:
     html = empty(BY_PATH[f"/v1{path}"])
     ways = re.findall(r'type="radio" name="pick:lubricant\.\w+" value="lubricant\.(\w+)"', html)
-    assert ways[:3] == ["iso_vg", "viscosity_pa_s", "kinematic_viscosity_40_mm2_per_s"]
-    assert ways[3:5] == ["kinematic_viscosity_100_mm2_per_s", "viscosity_index"]
+    assert ways[:4] == ["iso_vg", "name", "viscosity_pa_s", "kinematic_viscosity_40_mm2_per_s"]
+    assert ways[4:6] == ["kinematic_viscosity_100_mm2_per_s", "viscosity_index"]
     coefficients = ["pressure_viscosity_per_gpa", "pressure_viscosity_38_per_gpa"]
-    assert ways[5:] == ([] if path == "/coupling" else coefficients)
+    assert ways[6:] == ([] if path == "/coupling" else coefficients)
 
 
 def test_a_grade_leaves_out_viscosity_and_its_temperature() -> None:

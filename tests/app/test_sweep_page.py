@@ -27,6 +27,7 @@ from app.pages.cases import Asked
 from app.pages.query import VIEW_NAMES, WRITTEN, body_of
 from app.pages.studies import page as pages
 from app.pages.studies.controls import field_choices
+from app.pages.studies.corners import CornersPage
 from app.pages.studies.design import DesignPage
 from app.pages.studies.page import output_choices
 from app.pages.studies.spectrum import SpectrumPage
@@ -395,11 +396,13 @@ def test_the_names_of_a_study_are_those_of_its_form() -> None:
     varied_one, unit = asked(COUPLING, x="operation.torque_n_m"), asked("starter-turbo-gear-drive-train")
     scattering = asked(COUPLING, **{"t9": "friction.coefficient", "t9.by": "0.01"})
     double = asked("starter-turbo-double-helical")
-    studies = ((SweepPage, varied_one), (DesignPage, unit), (DesignPage, double), (SpectrumPage, scattering))
+    classed = replace(unit, pairs=[*unit.pairs, ("gears.quality_class", "5")])
+    designs = ((DesignPage, unit), (DesignPage, double), (CornersPage, classed))
+    studies = ((SweepPage, varied_one), *designs, (SpectrumPage, scattering))
     pattern = r'<(?:input|select|textarea)\b[^>]*?\bname="([^"]+)"'
     found = [set(re.findall(pattern, opened(page, case))) for page, case in studies]
     assert set.union(*found) >= control_names()
-    for names, case in zip(found, (varied_one, unit, double, scattering), strict=True):
+    for names, case in zip(found, (varied_one, unit, double, classed, scattering), strict=True):
         assert names - control_names() == {WRITTEN, *dict(case.pairs)}
 
 

@@ -39,7 +39,6 @@ def test_walther_passes_through_both_points(grade: int) -> None:
 TYPICAL: dict[OilKind, dict[int, float]] = {
     "mineral": {10: 2.64, 15: 3.38, 22: 4.25, 32: 5.4, 46: 6.8, 68: 8.7, 100: 11.2, 150: 14.8, 220: 19.0, 320: 24.2}
     | {460: 30.6, 680: 38.8, 1000: 49.9, 1500: 64.2},
-    "pao": {32: 6.27, 46: 8.10, 68: 10.85, 100: 14.5, 150: 19.6, 220: 25.9, 320: 34.1, 460: 44.2, 680: 58.3},
     "ester": {32: 6.27, 46: 8.10, 68: 10.85, 100: 14.5, 150: 19.6, 220: 25.9, 320: 34.1, 460: 44.2, 680: 58.3},
     "polyglycol": {32: 7.41, 46: 9.93, 68: 13.7, 100: 18.8, 150: 26.0, 220: 35.3, 320: 47.4, 460: 62.6, 680: 83.7},
 }
@@ -50,16 +49,32 @@ def test_typical_viscosity_at_100_degrees_of_a_grade_and_kind(kind: OilKind, gra
     assert iso_vg(grade, kind).kinematic_viscosity_100 * 1e6 == pytest.approx(TYPICAL[kind][grade], rel=3e-3)
 
 
+MOBIL_SHC_600 = [(32, 6.3), (46, 8.5), (68, 11.6), (100, 15.3), (150, 21.1), (220, 28.5), (320, 38.5), (460, 50.7)]
+MOBIL_SHC_600 += [(680, 69.0), (1000, 98.8)]
+
+
+@pytest.mark.parametrize(("grade", "printed"), MOBIL_SHC_600)
+def test_a_polyalphaolefin_has_the_viscosity_at_100_degrees_of_a_data_sheet(grade: int, printed: float) -> None:
+    """The index is the mean over several families of oils, so that one family agrees within 3.5 %."""
+    # With the index 150 for every grade, the viscosity at 100 C would be 16 % lower at grade 680.
+    assert iso_vg(grade, "pao").kinematic_viscosity_100 * 1e6 == pytest.approx(printed, rel=0.035)
+
+
+@pytest.mark.parametrize(("grade", "index"), [(10, 145), (32, 145), (46, 155), (220, 170), (1000, 190), (1500, 190)])
+def test_a_grade_of_a_polyalphaolefin_has_the_index_of_its_viscosity(grade: int, index: int) -> None:
+    assert iso_vg(grade, "pao").viscosity_index == pytest.approx(index, abs=1e-6)
+
+
 @pytest.mark.parametrize("grade", GRADES)
-@pytest.mark.parametrize(("kind", "index"), [("pao", 150.0), ("ester", 150.0), ("polyglycol", 210.0)])
+@pytest.mark.parametrize(("kind", "index"), [("ester", 150.0), ("polyglycol", 210.0)])
 def test_a_grade_of_a_synthetic_oil_has_the_index_of_its_kind(kind: OilKind, index: float, grade: int) -> None:
     assert iso_vg(grade, kind).viscosity_index == pytest.approx(index, abs=1e-6)
 
 
-@pytest.mark.parametrize(("kind", "expected"), [("mineral", 25.6), ("pao", 33.9), ("polyglycol", 44.8)])
+@pytest.mark.parametrize(("kind", "expected"), [("mineral", 25.6), ("pao", 37.4), ("polyglycol", 44.8)])
 def test_grade_220_at_90_degrees_by_kind(kind: OilKind, expected: float) -> None:
-    """At 90 C, data sheets give 33.5 mm2/s for a polyalphaolefin and 46.8 mm2/s for a polyglycol of grade 220."""
-    # With the viscosity of a mineral oil, the films would be 20 and 40 % too thin.
+    """At 90 C, a polyalphaolefin of grade 220 is 46 % and a polyglycol 75 % thicker than a mineral oil."""
+    # Oils of the printed 220 and 28.5 mm2/s (Mobil SHC 630) have 37.0 mm2/s, those of a polyglycol's sheet 46.8 mm2/s.
     assert iso_vg(220, kind).kinematic_viscosity(363.15) * 1e6 == pytest.approx(expected, abs=0.1)
 
 
@@ -73,7 +88,7 @@ def test_an_oil_of_an_index_has_that_index(thick: float, index: float) -> None:
 
 
 def test_a_viscosity_at_40_degrees_alone_has_the_index_of_its_kind() -> None:
-    for kind, index in (("mineral", 95.0), ("pao", 150.0), ("ester", 150.0), ("polyglycol", 210.0)):
+    for kind, index in (("mineral", 95.0), ("pao", 160.0), ("ester", 150.0), ("polyglycol", 210.0)):
         assert sheet_of_index(100e-6, kind=kind).viscosity_index == pytest.approx(index, abs=1e-6)
 
 

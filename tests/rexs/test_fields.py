@@ -1,6 +1,7 @@
 """Requests take every value of a file for which they have a field; the answer lists the values that are not used."""
 
 import re
+from collections.abc import Sequence
 from fnmatch import fnmatch
 from math import acos, asin, atan, cos, degrees, pi, radians, sin, sqrt, tan
 from pathlib import Path
@@ -112,6 +113,8 @@ MEANINGS: list[tuple[str, str, Value, str, str, str, Any]] = [
     ("lubricant", "pressure_viscosity_coefficient_at_38_degrees_celsius", 0.02, "mm^2 / N", SCUFFING, "lubricant.pressure_viscosity_38_per_gpa", 20.0),
     ("cylindrical_gear", "normal_module", 6.5, "mm", LOAD, "gears.module_mm", 6.5),
     ("cylindrical_gear", "face_width", 190.0, "mm", LOAD, "gears.face_width_mm", 190.0),
+    ("cylindrical_gear", "global_tolerance_class_iso_1328_2013", 6, "none", LOAD, "gears.quality_class", 6),
+    ("cylindrical_gear", "global_tolerance_class_iso_1328_2013", 5, "none", TRAIN, "gears.quality_class", 5),
     ("cylindrical_gear", "addendum_basic_profile", 5.4, "mm", LOAD, "gears.pinion.addendum", 0.9),
     ("cylindrical_gear_flank", "addendum_coefficient_basic_profile", 0.95, "none", LOAD, "gears.wheel.addendum", 0.95),
     ("cylindrical_gear_flank", "addendum_modification_coefficient", 0.1, "none", LOAD, "gears.wheel.profile_shift", 0.1),
@@ -354,6 +357,25 @@ def test_the_common_face_width_counts_before_the_smaller_face() -> None:
     assert answer(unit)["stages"][0]["requests"][LOAD]["gears"]["face_width_mm"] == 10.0
 
 
+@pytest.mark.parametrize(
+    ("classes", "expected"),
+    [((5, 7), 7), ((8, 6), 8), ((6, None), 6), ((5, 12), None), ((0, 0), None), ((5.5, 5), None)],
+)
+def test_the_coarser_quality_class_of_both_gears_is_used(classes: Sequence[float | None], expected: int | None) -> None:
+    """A class that the standard does not have is a finding; the request then has no class."""
+    unit = gear_set()
+    gears = [each["attributes"] for each in unit.components if each["type"] == "cylindrical_gear"]
+    for attributes, stated in zip(gears, classes, strict=True):
+        if stated is not None:
+            attributes["global_tolerance_class_iso_1328_2013"] = (stated, "none")
+    found = answer(unit)
+    (stage,) = found["stages"]
+    assert {stage["requests"][each]["gears"].get("quality_class") for each in (LOAD, SCUFFING, TRAIN)} == {expected}
+    assert ("quality_class" in {each["code"] for each in found["findings"]}) == (expected is None)
+    assumed = {each["field"] for each in stage["assumed"]}
+    assert ("gears.quality_class" in assumed) == (expected in {7, 8})
+
+
 def test_a_transverse_module_becomes_the_normal_one() -> None:
     """In REXS, the pressure angle is the normal one. A profile shift in mm is divided by the normal module."""
     unit = gear_set(cylindrical_gear_flank={"addendum_modification": (1.2, "mm")})
@@ -567,6 +589,7 @@ NOT_IN_FILES = {
     "micropitting.*": "no version of the standard has a test of micropitting",
     "modifications.*_plane_deviation_um": "the positions of shafts in files are nominal",
     "lubricant.iso_vg": "the viscosities are given",
+    "lubricant.name": "the viscosities are given",
     "lubricant.viscosity_*": "the viscosities are given",
     "lubricant.reference_temperature_c": "belongs to the viscosity at one temperature",
     "lubricant.density_kg_per_m3": "belongs to the viscosity at one temperature",

@@ -31,7 +31,7 @@ from solvers.quantity import UNITS
 from solvers.scuffing import inputs as mesh
 
 
-class TrainGears(BacklashGears, of=si.Arrangement, only=("hand", "apex_runout")):
+class TrainGears(BacklashGears, of=(si.Arrangement, GearPairInputs), only=("hand", "apex_runout", "quality_class")):
     """The gear pair, with its backlash and the hand of the helix."""
 
     rack_tip_radius: Annotated[

@@ -9,7 +9,7 @@ from pydantic_core import PydanticCustomError
 from app.models.line_contact.request import FilmModel
 from app.models.load_distribution.request import GearPairRequest, LoadDistributionModel, distribution_inputs
 from app.models.sections.cooling import GearCooling
-from app.models.sections.oil import Oil
+from app.models.sections.oil import Oil, from_sheet, of_name
 from app.schema.fields import value_at
 from app.schema.model import Request, Section
 from app.schema.quantities import Input
@@ -18,6 +18,7 @@ from solvers.errors import InvalidInput
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.pair import gear_pair
 from solvers.heat_balance import Cooling
+from solvers.named_oils import named_oils
 from solvers.scuffing import inputs as si
 from solvers.scuffing.thermal.bulk import balance_share, method_asked
 
@@ -107,6 +108,11 @@ LAW = (
     "losses, Schlenk's coefficient is used, without load factors"
 )
 NOT_USED = "not used, because `model.friction` selects the coefficient of ISO/TR 13989-1"
+OF_A_TEST = {
+    "temperatures.scuffing_test.fzg_stage": "fzg_stage",
+    "micropitting.failure_load_stage": "micropitting_stage",
+}
+"""The load stages that the data sheet of a named oil may print; the items are fields of `NamedOil`."""
 ESTER_FACTOR = (
     "the lubricant factor of an ester is not known. For scuffing, the factor of a mineral oil is used; for the "
     "losses, the factor of a polyalphaolefin is used if no coefficient of friction is given"
@@ -148,6 +154,25 @@ class MeshInOil(Request):
             held = sent.get(section, {})
             if isinstance(held, dict) and any(value_at(sent, path) is not None for path in values):
                 sent = sent | {section: {**held, name: "given" if held.get(name) is None else held[name]}}
+        return sent
+
+    @model_validator(mode="before")
+    @classmethod
+    def stages_of_the_named_oil(cls, sent: Any) -> Any:
+        """Fill in the load stages that the data sheet of a named oil prints, where the request gives nothing else."""
+        oil = of_name(sent.get("lubricant")) if isinstance(sent, dict) else None
+        if oil is None:
+            return sent
+        temperatures, film = sent.get("temperatures", {}), sent.get("micropitting")
+        if oil.fzg_stage and isinstance(temperatures, dict) and temperatures.get("scuffing_c") is None:
+            test = temperatures.get("scuffing_test") or {}
+            if isinstance(test, dict) and test.get("fzg_stage") is None:
+                test = {**test, "fzg_stage": oil.fzg_stage}
+                sent = sent | {"temperatures": {**temperatures, "scuffing_test": test}}
+        if oil.micropitting_stage and isinstance(film, dict) and film.get("permissible_ratio") is None:
+            stage = film.get("failure_load_stage")
+            film = {**film, "failure_load_stage": oil.micropitting_stage if stage is None else stage}
+            sent = sent | {"micropitting": film}
         return sent
 
     @model_validator(mode="after")
@@ -224,6 +249,12 @@ class MeshInOil(Request):
         reasons: dict[str, str] = self.gears.assumed_widths()
         if not self.lubricant.known:
             return reasons
+        if self.lubricant.name is not None:
+            oil = named_oils()[self.lubricant.name]
+            printed = {path: getattr(oil, name) for path, name in OF_A_TEST.items()}
+            reasons |= {
+                path: from_sheet(oil) for path, stage in printed.items() if stage and value_at(self, path) == stage
+            }
         if self.model.friction == "iso_tr_13989":
             reasons["model.friction"] = LAW
             if self.friction_coefficient is not None:

@@ -25,10 +25,11 @@ class GearMember(Section, of=GearTeeth):
         return {"addendum": None} | given if by_diameter else given
 
 
-class Gears(Section, of=GearPairInputs, without=("rack_tip_radius",)):
+class Gears(Section, of=GearPairInputs, without=("rack_tip_radius", "quality_class")):
     """An external gear pair, spur or helical, with parallel axes. The pinion drives.
 
-    Subclasses add `rack_tip_radius`, because the default of this field depends on the calculation.
+    Subclasses add `rack_tip_radius`, because the default of this field depends on the calculation, and
+    `quality_class`, where a calculation knows the deviations of flanks.
     """
 
     def assumed_widths(self) -> dict[str, str]:
@@ -39,7 +40,7 @@ class Gears(Section, of=GearPairInputs, without=("rack_tip_radius",)):
         return {"gears.face_width_mm": f"of one helix: two of {b:g} mm and the gap of {e:g} mm are {2 * b + e:g} mm"}
 
 
-class ScuffingGears(Gears):
+class ScuffingGears(Gears, of=GearPairInputs, only=("quality_class",)):
     """The gear pair of the scuffing calculations."""
 
     rack_tip_radius: Annotated[

@@ -1,24 +1,57 @@
 """Sections that describe an oil by its grade, by its data sheet, or by its viscosity."""
 
 from dataclasses import fields, replace
-from typing import Annotated, Any, ClassVar, Self
+from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import model_validator
+from pydantic import BeforeValidator, model_validator
 from pydantic_core import PydanticCustomError
 
 from app.schema.model import Section
 from app.schema.quantities import Input
 from solvers.coupling.inputs import Lubricant as OilAtTeeth
 from solvers.lubricants import Lubricant, OilKind
+from solvers.named_oils import NamedOil, named_oils, nearest_names
 from solvers.oils import SQUARE_MILLIMETRE, VISCOSITY_INDICES, IsoGrade, OilSheet, iso_vg, sheet_of_index
 from solvers.quantity import UNITS
 
 _PAPERS = Lubricant()
 
 
+DESCRIBED = ("name", "iso_vg", "kinematic_viscosity_40_mm2_per_s")
+"""The fields by which an oil has a viscosity at every temperature."""
+
+
 def _names_a_sheet(given: dict[str, Any]) -> bool:
-    """Return whether the fields that were sent for an oil include a grade or a data sheet."""
-    return given.get("iso_vg") is not None or given.get("kinematic_viscosity_40_mm2_per_s") is not None
+    """Return whether the fields that were sent for an oil include a name, a grade or a data sheet."""
+    return any(given.get(name) is not None for name in DESCRIBED)
+
+
+BY_NAME = {name.casefold(): oil for name, oil in named_oils().items()}
+
+
+def of_name(given: Any) -> NamedOil | None:
+    """Return the oil that the fields sent for an oil name; None without a name, or with an unknown one."""
+    name = given.get("name") if isinstance(given, dict) else None
+    return BY_NAME.get(name.casefold()) if isinstance(name, str) else None
+
+
+def _known_name(text: Any) -> str:
+    """Return the name as the table writes it. Anything else is refused with the most similar names."""
+    oil = of_name({"name": text})
+    if oil is None:
+        raise PydanticCustomError(
+            "unknown_oil",
+            "no data sheet of this name was read; the nearest are {near}. Any other oil: leave out the name, and enter "
+            "the viscosities of its data sheet",
+            {"near": "; ".join(nearest_names(text if isinstance(text, str) else ""))},
+        )
+    return oil.name
+
+
+if TYPE_CHECKING:
+    OilName = str
+else:
+    OilName = Annotated[Literal[*named_oils()], BeforeValidator(_known_name)]
 
 
 RARELY = "by the kind of oil; few data sheets state it"
@@ -37,17 +70,30 @@ def _of_a_sheet(name: str, ge: float, le: float, text: str, assumed: str | None 
 
 
 class SheetOil(Section):
-    """An oil that is described by its ISO grade or by its data sheet.
+    """An oil that is described by its name, by its ISO grade or by its data sheet.
 
     A data sheet states the viscosity at 40 °C. A second value may say how the viscosity changes with temperature: the
-    viscosity at 100 °C or the viscosity index.
+    viscosity at 100 °C or the viscosity index. The name stands for a data sheet that was read; a value that is given
+    beside the name replaces the value of this sheet.
     """
 
     exclusive: ClassVar[tuple[tuple[str, ...], ...]] = (
         ("iso_vg", "viscosity_pa_s", "kinematic_viscosity_40_mm2_per_s"),
         ("kinematic_viscosity_100_mm2_per_s", "viscosity_index"),
+        ("name", "iso_vg"),
+        ("name", "viscosity_pa_s"),
     )
+    alternatives: ClassVar = (("iso_vg", "name", "viscosity_pa_s", "kinematic_viscosity_40_mm2_per_s"),)
 
+    name: Annotated[
+        OilName | None,
+        Input(
+            "name of the oil",
+            source="data sheets, each cited among the assumptions",
+            text="an oil whose data sheet was read; given values replace those of the sheet",
+            default_text="by grade, data sheet or viscosity",
+        ),
+    ] = None
     iso_vg: Annotated[IsoGrade | None, Input("ISO viscosity grade", "VG", "ISO 3448")] = None
     kinematic_viscosity_40_mm2_per_s: Annotated[float | None, Input.of(OilSheet, "kinematic_viscosity_40")] = None
     kinematic_viscosity_100_mm2_per_s: Annotated[
@@ -56,7 +102,10 @@ class SheetOil(Section):
             OilSheet,
             "kinematic_viscosity_100",
             default_text="by the viscosity index, otherwise typical of the kind of oil",
-            assumed="typical viscosity index of the kind of oil: 94 to 102 mineral, 150 PAO and ester, 210 polyglycol",
+            assumed=(
+                "typical viscosity index of the kind of oil: 94 to 102 mineral, 145 to 190 PAO by its viscosity, 150 "
+                "ester, 210 polyglycol"
+            ),
         ),
     ] = None
     viscosity_index: Annotated[
@@ -77,8 +126,29 @@ class SheetOil(Section):
 
     @property
     def by_sheet(self) -> bool:
-        """Whether the oil is given by grade or data sheet."""
+        """Whether the oil is given by name, grade or data sheet."""
         return _names_a_sheet(vars(self))
+
+    @model_validator(mode="before")
+    @classmethod
+    def values_of_the_named_oil(cls, given: Any) -> Any:
+        """Fill in the values of the data sheet that the name stands for, where the request gives none."""
+        oil = of_name(given)
+        second = ("iso_vg", "viscosity_pa_s", "reference_temperature_c")
+        if oil is None or any(given.get(name) is not None for name in second):
+            return given  # what does not go with a name is refused later
+        left_out = {"kinematic_viscosity_100_mm2_per_s"} if given.get("viscosity_index") is not None else set()
+        values = ((name, getattr(oil, name)) for name in OF_A_NAME if name not in left_out)
+        return given | {name: value for name, value in values if value is not None and given.get(name) is None}
+
+    def values_by_source(self) -> dict[str, str]:
+        if self.name is None:
+            return {}
+        oil = named_oils()[self.name]
+        printed = ((name, getattr(oil, name)) for name in OF_A_NAME)
+        found = {name: from_sheet(oil) for name, value in printed if value is not None and getattr(self, name) == value}
+        index = "kinematic_viscosity_100_mm2_per_s"
+        return found | ({index: found[index] + oil.index_remark} if index in found else {})
 
     @model_validator(mode="after")
     def one_way(self) -> Self:
@@ -135,10 +205,24 @@ class SheetOil(Section):
         return by_index if self.by_sheet else dict.fromkeys(of_a_sheet, True)
 
 
-class Oil(SheetOil, of=Lubricant):
-    """The oil of a lubricated contact, described by its grade, its data sheet or its viscosity.
+OF_A_NAME = (
+    "kinematic_viscosity_40_mm2_per_s",
+    "kinematic_viscosity_100_mm2_per_s",
+    "kind",
+    "density_15_kg_per_m3",
+)
+"""The fields that follow from the name of an oil; `NamedOil` has the same names."""
 
-    If none of the three is given, the calculation has no oil.
+
+def from_sheet(oil: NamedOil) -> str:
+    """Say from which data sheet a value comes."""
+    return f"from the data sheet of {oil.name}: {oil.source}, read {oil.read}"
+
+
+class Oil(SheetOil, of=Lubricant):
+    """The oil of a lubricated contact, described by its name, its grade, its data sheet or its viscosity.
+
+    If none of the four is given, the calculation has no oil.
     """
 
     exclusive: ClassVar = (
@@ -154,7 +238,7 @@ class Oil(SheetOil, of=Lubricant):
             "viscosity",
             ge=1e-5,
             le=100,
-            default_text="by grade or data sheet; with neither no oil is known",
+            default_text="by name, grade or data sheet; with none of them no oil is known",
         ),
     ] = None
     reference_temperature_c: Annotated[
@@ -197,7 +281,9 @@ class Oil(SheetOil, of=Lubricant):
 
     @model_validator(mode="after")
     def one_reference(self) -> Self:
-        """Refuse a density together with a grade or data sheet."""
+        """Refuse a reference temperature beside a name, and a density together with a grade or data sheet."""
+        if self.name is not None and self.reference_temperature_c is not None:
+            raise PydanticCustomError("exclusive", "name and reference_temperature_c are both given; keep one")
         if self.by_sheet and self.density_kg_per_m3 is not None:
             raise PydanticCustomError(
                 "exclusive",

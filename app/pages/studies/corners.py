@@ -1,5 +1,6 @@
 """The page of a gear unit's corners: the effect of each uncertain input, and the load along the face at the worst."""
 
+from functools import cached_property
 from typing import Any
 
 from app.figures.data import Hue, Row
@@ -7,16 +8,17 @@ from app.figures.studies import corners
 from app.figures.units import axis_of
 from app.figures.wording import listed, number
 from app.models.drive_train.figures import LOAD_ALONE
-from app.pages.cases import SolvedCase
+from app.pages.cases import REFUSED, SolvedCase
 from app.pages.studies.page import Link, Number, Result, Table
 from app.pages.studies.unit import UnitPage, load_figure
 from app.pages.study_kinds import CORNERS, DESIGN
 from app.pages.typesetting import shown
 from app.schema.fields import headlines, value_at
 from app.studies.kinds.corners import USUAL_RANGES, Corners
-from app.studies.points import COLD, needs_film
-from app.studies.requests import DRIVE_TRAIN, Overrides
+from app.studies.points import COLD, BaseRequest, needs_film
+from app.studies.requests import DRIVE_TRAIN, Axis, Overrides
 from app.studies.runner import Line
+from app.studies.tolerances import class_corners, class_remarks
 
 
 class CornersPage(UnitPage):
@@ -29,6 +31,15 @@ class CornersPage(UnitPage):
     corners = "ranges"
     plan = Corners
     study: Corners
+
+    @cached_property
+    def uncertain(self) -> dict[str, Axis]:
+        """The uncertain inputs, and the slopes of the flanks if the gears have a quality class."""
+        try:
+            by_class = class_corners(BaseRequest(self.calculation, self.asked.body).checked({}))
+        except REFUSED:
+            by_class = {}
+        return super().uncertain | by_class
 
     def body(self) -> dict[str, Any]:
         """Return the body of the request for the study."""
@@ -46,6 +57,7 @@ class CornersPage(UnitPage):
         extremes = {line["output"]: line for line in lines if line["type"] == "extremes"}
         progress = f"{end['points']} corners in {shown(end['elapsed_s'], 2)} s"
         remarks = [warning["message"] for warning in end["warnings"]]
+        remarks += [f"{remark}." for remark in class_remarks(end["assumptions"])]
         if output.path not in extremes:
             remarks.append(f"No corner has a value of the {output.title}; choose another output.")
             return Result(progress, remarks=tuple(remarks))

@@ -14,6 +14,7 @@ from app.pages.study_kinds import INFLUENCE, VARY
 from app.pages.typesetting import shown
 from app.studies.kinds.sensitivity import Sensitivity
 from app.studies.runner import Line
+from app.studies.tolerances import class_remarks
 
 MOST_ROWS = 40  # largest number of rows of the table, so that a user can read the table; the file has all rows
 
@@ -66,6 +67,7 @@ class SensitivityPage(StudyPage):
             remarks.append(f"No input changes the {output.title} of this case.")
         if GIVEN_BULK in {assumption["reason"] for assumption in end["assumptions"]}:
             remarks.append(f"Oil temperature: {GIVEN_BULK}.")
+        remarks += [f"{remark}." for remark in class_remarks(end["assumptions"])]
         changes = f"changes the {output.title} by{f', {difference_unit(output.unit)}' if output.unit else ''}"
         head = ("input", Number("value"), "unit", Number("one step"), Number(changes), Number("% for 1 %"), "remark")
         more = len(rows) - MOST_ROWS

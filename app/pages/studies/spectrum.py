@@ -30,6 +30,7 @@ from app.studies.fields import scalar_at
 from app.studies.kinds.spectrum import RELATIVE_DEVIATION, Spectrum
 from app.studies.points import SOLVED
 from app.studies.runner import Line
+from app.studies.tolerances import class_remarks
 
 REPLICATES = 8  # number of independent samples on the page; the scatter of their means gives the error of a mean
 MACHINES = (("", "256"), ("64", "64"), ("1024", "1024"), ("4096", "4096"))
@@ -100,7 +101,7 @@ def address_of(
     endpoint: Calculation, request: Pairs, body: dict[str, Any], file: Mapping[str, str] = MappingProxyType({})
 ) -> str:
     """Return the address of the page that shows the study with this body."""
-    inputs, views = [_typed(scatter) for scatter in (body.get("tolerances") or {"inputs": []})["inputs"]], dict(file)
+    inputs, views = [_typed(scatter) for scatter in (body.get("tolerances") or {}).get("inputs") or ()], dict(file)
     given = {
         "cases": table_of(endpoint, body["cases"]),
         "tolerances": {"inputs": inputs},
@@ -144,12 +145,12 @@ class SpectrumPage(StudyPage):
         machines = tolerances["count"]
         if not isinstance(machines, int):
             raise Unprocessable("int_type", "give a whole number", "tolerances.count")
-        tolerances = {"inputs": inputs, "count": machines // REPLICATES, "replicates": REPLICATES}
+        tolerances = {"inputs": inputs or None, "count": machines // REPLICATES, "replicates": REPLICATES}
         return {
             "endpoint": calculation.path,
             "request": self.asked.body,
             "cases": cases_of(calculation, given["cases"]),
-            "tolerances": tolerances if inputs else None,
+            "tolerances": tolerances if inputs or value_at(self.case, "gears.quality_class") else None,
             "outputs": list(dict.fromkeys([output, *calculation.words.losses])),
             "limits": self._limits(given.get("limit", {})),
             "hours_per_year": given.get("hours_per_year"),
@@ -292,6 +293,7 @@ class SpectrumPage(StudyPage):
             self._outputs_table(end),
             *((_tolerances_table(header, limit),) if header["tolerances"] else ()),
         )
+        notes += class_remarks(end["assumptions"])
         remarks = tuple(f"{note[0].upper()}{note[1:]}." for note in notes)
         leads = (Link("Report with this spectrum", self.view("/report")),)
         return Result(progress, figures | self._losses(end), tables, remarks, leads)

@@ -1,5 +1,6 @@
 """Corners: a sweep over all combinations of the values of a gear unit's uncertain inputs; each is a corner."""
 
+from collections.abc import Sequence
 from typing import Annotated, ClassVar
 
 from app.errors import Unprocessable
@@ -9,12 +10,14 @@ from app.studies.point_sets import PointSet, grid, usual_corners
 from app.studies.points import SOLVED, BaseRequest
 from app.studies.requests import RANGES, Axis, DriveTrainStudy, FromIndex, Outputs, Ranges
 from app.studies.runner import Line
+from app.studies.tolerances import class_assumptions, class_corners, class_tolerances
 from solvers.drive_train.uncertainty import MOST_CORNERS, no_convergence
 
 USUAL_RANGES = (
     "wall response, clearances of a shaft's plain bearings against each other, friction, direction of the offset and "
-    "thrust of the couplings"
+    "thrust of the couplings; with a quality class of the gears, also the slopes of helix and profile"
 )
+MOST = 4 * MOST_CORNERS  # the usual corners, at both ends of two slopes by the quality class
 
 
 class CornersRequest(DriveTrainStudy):
@@ -29,7 +32,7 @@ class CornersRequest(DriveTrainStudy):
 
 
 class Corners(Sweep):
-    """Study of a gear unit at every corner, for at most 256 corners.
+    """Study of a gear unit at every corner, for at most 1024 corners.
 
     A corner is a combination of the values of the uncertain inputs. The answer has one line of text per corner, and one
     line of the type `extremes` per output with the least and the largest value of this output.
@@ -45,18 +48,21 @@ class Corners(Sweep):
     model = CornersRequest
     formats = ("ndjson",)
     is_reduced = True
+    by_class: Sequence[Line] = ()
 
     def _points(self, base: BaseRequest, most: int) -> PointSet:
         ranges: list[Axis] | None = self.body.ranges
         if ranges is None:
-            ranges = list(usual_corners(base.checked({})).values())
+            request = base.checked({})
+            ranges = list((usual_corners(request) | class_corners(request)).values())
+            self.by_class = class_assumptions(request, class_tolerances(request))
         if not ranges:
             raise Unprocessable(
                 "no_corners",
                 "no input of this gear unit is uncertain; list the uncertain inputs in the field 'ranges'",
                 "ranges",
             )
-        return grid(ranges, base, min(most, MOST_CORNERS), "ranges")
+        return grid(ranges, base, min(most, MOST), "ranges")
 
     def _closing(self, summary: Summary, end: Line) -> list[Line]:
         """Return the last lines of the answer: one line `extremes` per output, and the line `end`.
@@ -70,4 +76,5 @@ class Corners(Sweep):
         unsolved = self.total - sum(summary.counts[status] for status in SOLVED)
         notice = no_convergence(unsolved)
         warning = {"rank": notice.rank, "code": notice.code, "message": notice.message}
-        return [*extremes, {**end, "warnings": [warning] if unsolved else []}]
+        assumptions = [*end["assumptions"], *self.by_class]
+        return [*extremes, {**end, "assumptions": assumptions, "warnings": [warning] if unsolved else []}]

@@ -3,7 +3,7 @@
 An input is moved by a step. The step is:
 
 - 1 for an integer
-- the tolerance for any other input that has a tolerance
+- the tolerance for any other input that has a tolerance; by the quality class of the gears, if they have one
 - 1 K for a temperature without a tolerance
 - 1 % of the value for all remaining inputs
 
@@ -25,6 +25,7 @@ from app.studies.fields import NUMBERS, fault, indexed, not_a_number, scalar_at
 from app.studies.points import BaseRequest, Point, check_count, check_distinct
 from app.studies.requests import FieldPath, Overrides, StudyRequest
 from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header
+from app.studies.tolerances import class_assumptions, class_tolerances
 
 RELATIVE_STEP = 0.01  # step as a share of the value; much smaller than usual ranges, much larger than solver errors
 KELVIN_STEP = 1.0  # step of temperatures; a share of a temperature in degrees Celsius has no physical meaning
@@ -69,18 +70,12 @@ class Perturbation:
         return [place for place in moved if place != self.value and fault(self.leaf, place) is None]
 
 
-def perturbation(leaf: Leaf, value: float) -> Perturbation:
-    """Return the perturbation of an input.
-
-    The step is:
-
-    - 1 for an integer
-    - the tolerance for any other input that has a tolerance
-    - 1 K for a temperature without a tolerance
-    - 1 % of the value for all remaining inputs
-    """
+def perturbation(leaf: Leaf, value: float, tolerance: float | None = None) -> Perturbation:
+    """Return the perturbation of an input, by a `tolerance` of this case or else by the rule of the module."""
     if leaf.kind == "integer":
         return Perturbation(leaf, value, 1.0)
+    if tolerance is not None:
+        return Perturbation(leaf, value, tolerance, tolerance / 2.0)
     if leaf.declared.tolerance is not None:
         step = max(leaf.declared.tolerance, (leaf.declared.relative_tolerance or 0.0) * abs(value))
         return Perturbation(leaf, value, step, step / 2.0)
@@ -145,7 +140,7 @@ class Sensitivity(Study):
     The step of an input is:
 
     - 1 for an integer
-    - the tolerance for any other input that has a tolerance
+    - the tolerance for any other input that has a tolerance; by the quality class of the gears, if they have one
     - 1 K for a temperature without a tolerance
     - 1 % of the value for all remaining inputs
 
@@ -162,9 +157,12 @@ class Sensitivity(Study):
     body: SensitivityRequest
 
     def _planned(self, base: BaseRequest, most: int) -> int:
-        paths, case = self.body.inputs, base.checked({}).model_dump()
+        request = base.checked({})
+        paths, case, by_class = self.body.inputs, request.model_dump(), class_tolerances(request)
         inputs = _every_number(base, case) if paths is None else _named(base, case, paths)
-        perturbations = [perturbation(leaf, value_at(case, leaf.path)) for leaf in inputs]
+        perturbations = [perturbation(leaf, value_at(case, leaf.path), by_class.get(leaf.path)) for leaf in inputs]
+        moved_by_class = {leaf.path: by_class[leaf.path] for leaf in inputs if leaf.path in by_class}
+        self.by_class = class_assumptions(request, moved_by_class)
         self.perturbations = [moved for moved in perturbations if moved.places]
         total = 1 + sum(len(moved.places) for moved in self.perturbations)
         check_count(total, most, "inputs")
@@ -193,7 +191,7 @@ class Sensitivity(Study):
             status=base.status,
             warnings=base.warnings,
             error=base.error,
-            assumptions=base.assumptions,
+            assumptions=[*base.assumptions, *self.by_class],
         )
         yield [{**end, "type": "end", "elapsed_s": clock.elapsed_s}]
 

@@ -1,6 +1,6 @@
 """Load spectra: the probability that a machine with tolerances exceeds a limit in a case of its load spectrum."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from time import perf_counter
 from typing import Annotated, Self
 
@@ -25,12 +25,14 @@ from app.studies.requests import (
     Method,
     Overrides,
     Part,
+    Scatter,
     Seed,
     StudyRequest,
     Value,
 )
 from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header, paths_of
 from app.studies.statistics import Limit
+from app.studies.tolerances import class_assumptions, class_distributions, class_tolerances
 from solvers.arrays import FloatArray
 
 PROGRESS_S = 0.5  # time between two lines of progress
@@ -71,7 +73,14 @@ class Tolerances(Part):
         int, Input("replicates", text="independent samples; the scatter of their means is the error", ge=1, le=1000)
     ] = 8
     seed: Seed = 1
-    inputs: Annotated[Inputs, Input("distributions", text="the fields and their distributions")]
+    inputs: Annotated[
+        Inputs | None,
+        Input(
+            "distributions",
+            text="the fields and their distributions",
+            default_text="by the quality class of the gears, which also scatters fields that are not listed here",
+        ),
+    ] = None
 
 
 class Threshold(Part):
@@ -109,7 +118,12 @@ class SpectrumRequest(StudyRequest):
         Field(min_length=1, max_length=100),
         Input("cases", text="what each case changes, and its share"),
     ]
-    tolerances: Annotated[Tolerances | None, Input("tolerances", default_text="the nominal machine alone")] = None
+    tolerances: Annotated[
+        Tolerances | None,
+        Input(
+            "tolerances", default_text="by the quality class of the gears; without a class the nominal machine alone"
+        ),
+    ] = None
     limits: Annotated[
         list[SpectrumLimit] | None,
         Field(max_length=20),
@@ -176,14 +190,18 @@ class Spectrum(Study):
         return tuple({leaf.path: leaf for leaf in outputs.values()}.values())
 
     def _planned(self, base: BaseRequest, most: int) -> int:
-        body, tolerances = self.body, self.body.tolerances
+        body = self.body
         set_by_cases = fields_set([case.set for case in body.cases], base, "cases.{}.set")
-        inputs = tolerances.inputs if tolerances else []
-        self.scattering = scattering(inputs, base, "tolerances.inputs")
+        given = list(body.tolerances.inputs or ()) if body.tolerances else []
+        self.scattering = scattering(given, base, "tolerances.inputs")
         for place, leaf in enumerate(self.scattering):
             if leaf.path in set_by_cases:
                 message = f"{leaf.path} has both a value in a case and a tolerance; give only one of the two"
                 raise Unprocessable("duplicate_path", message, f"tolerances.inputs.{place}.path")
+        inputs = [*given, *self._by_class(given, base, set_by_cases)]
+        self.scattering = scattering(inputs, base, "tolerances.inputs")
+        drawn_from = body.tolerances or Tolerances()
+        tolerances = self.tolerances = drawn_from.model_copy(update={"inputs": inputs}) if inputs else None
         scuffing = base.calculation.words.scuffing
         if body.limits is None and scuffing:  # the default limit needs the scuffing temperature
             columns = dict.fromkeys([*self.question.outputs, *scuffing])
@@ -200,6 +218,21 @@ class Spectrum(Study):
         # come first, then the machines of the second replicate, and so on.
         self.machines = _machines(tolerances, self.scattering) if tolerances else np.empty((1, 0))
         return total
+
+    def _by_class(self, given: list[Scatter], base: BaseRequest, set_by_cases: Iterable[str]) -> list[Scatter]:
+        """Return the distributions by the quality class of the gears, and note what is assumed by it.
+
+        A field that the body lists or a case sets does not scatter by the class. Raises Unprocessable if the body has
+        tolerances, but nothing scatters.
+        """
+        typical = {scatter.path: next(iter(anchors(scatter).values())) for scatter in given}
+        request, taken = base.checked({**typical, **self.body.cases[0].set}), {*typical, *set_by_cases}
+        widths = {path: width for path, width in class_tolerances(request).items() if path not in taken}
+        if self.body.tolerances and not (given or widths):
+            message = "give the distributions of fields that scatter, or a quality class of the gears"
+            raise Unprocessable("missing", message, "tolerances.inputs")
+        self.by_class = class_assumptions(request, widths)
+        return [scatter for scatter in class_distributions(request) if scatter.path in widths]
 
     def overrides(self, index: int) -> Overrides:
         """Return the values that a point changes in the base request. The keys are the paths of the values.
@@ -238,7 +271,7 @@ class Spectrum(Study):
                 lines.append(clock.line())
                 due = clock.elapsed_s + PROGRESS_S
             yield lines
-        replicates = self.body.tolerances.replicates if self.body.tolerances else 1
+        replicates = self.tolerances.replicates if self.tolerances else 1
         values = tally.values.reshape(replicates, -1, len(self.cases), len(self.question.outputs))
         concluded = await runner.twice_if_lost(pool, evaluated, self, values)
         assumptions = list(tally.assumptions.values())
@@ -251,7 +284,7 @@ class Spectrum(Study):
                 "counts": dict(sorted(tally.counts.items())),
                 "errors": dict(sorted(tally.errors.items())),
                 "warnings": dict(sorted(tally.warnings.items())),
-                "assumptions": [*concluded["assumptions"], *assumptions],
+                "assumptions": [*concluded["assumptions"], *self.by_class, *assumptions],
                 "elapsed_s": clock.elapsed_s,
             }
         ]
@@ -261,13 +294,13 @@ class Spectrum(Study):
 
         The description of a distribution states the share of the distribution that is cut off.
         """
-        if self.body.tolerances is None:
+        if self.tolerances is None:
             return None
         inputs = [
             {**scatter.model_dump(), "unit": leaf.unit, "title": leaf.title, "cut_off": cut(scatter, leaf).cut_off}
-            for scatter, leaf in zip(self.body.tolerances.inputs, self.scattering, strict=True)
+            for scatter, leaf in zip(self.tolerances.inputs or (), self.scattering, strict=True)
         ]
-        return {**self.body.tolerances.model_dump(), "inputs": inputs}
+        return {**self.tolerances.model_dump(), "inputs": inputs}
 
     def _ignored(self, assumptions: Sequence[Line]) -> list[str]:
         """Return a note for each field that scatters but has no effect because the model does not use the field."""
@@ -423,7 +456,7 @@ def _machines(tolerances: Tolerances, leaves: Sequence[Leaf]) -> FloatArray:
         unit_cube(tolerances.method, tolerances.count, len(leaves), np.random.default_rng(seed), "tolerances.count")
         for seed in seeds
     ]
-    return drawn(tolerances.inputs, leaves, np.concatenate(cubes))
+    return drawn(tolerances.inputs or (), leaves, np.concatenate(cubes))
 
 
 def _too_many(question: Question, overrides: Overrides, total: int, most: int) -> str:
