@@ -16,11 +16,14 @@ from solvers.sources import ISO_6336, XUE
 
 FZG = "ISO 14635-1"
 ISO_TR_15144 = "ISO/TR 15144-1:2014, as read in a public implementation"
-TR_13989 = "ISO/TR 13989-1, as read in a public implementation"
+TR_13989 = "ISO/TS 6336-20, as read in a public implementation"
+TS_6336_20 = "ISO/TS 6336-20:2017, as read in a public implementation"
+TS_6336_21 = "ISO/TS 6336-21:2017, as read in a public implementation"
 
 FrictionMethod = Literal["given", "iso_tr_13989"]
 BulkMethod = Literal["given", "estimated", "heat_balance"]
 OilSupply = Literal["spray", "dip", "submerged"]
+StandardEdition = Literal["2017", "2000"]
 
 ToothModel = Literal["ishikawa", "parabola"]
 ContactModel = Literal["hertzian", "linear"]
@@ -680,6 +683,69 @@ class MicropittingCheck:
 
 
 @record
+class StandardFactors:
+    """What the checks by the standard take beside the pair; the local checks never use it.
+
+    A factor that is None follows from method B of ISO 6336-1 or from the load distribution.
+    """
+
+    face_load_factor: float | None = quantity(
+        "face load factor for the standard",
+        "K_Hβ",
+        ISO_6336,
+        default=None,
+        ge=1,
+        le=20,
+        tolerance=0.1,
+        text="for the checks by the standard alone",
+        default_text="that of the load distribution",
+    )
+    transverse_load_factor: float | None = quantity(
+        "transverse load factor for the standard",
+        "K_Hα",
+        ISO_6336,
+        default=None,
+        ge=1,
+        le=20,
+        tolerance=0.05,
+        text="for the checks by the standard alone",
+        default_text="by method B of ISO 6336-1",
+    )
+    dynamic_factor: float | None = quantity(
+        "dynamic factor for the standard",
+        "K_v",
+        ISO_6336,
+        default=None,
+        ge=1,
+        le=20,
+        tolerance=0.05,
+        text="for the checks by the standard alone",
+        default_text="that of the load if it is not 1, otherwise by method B of ISO 6336-1",
+    )
+    quality_grade: int = quantity(
+        "quality grade for the standard",
+        "A",
+        "ISO 1328-1:2013",
+        default=7,
+        ge=1,
+        le=11,
+        text="flank tolerance class: deviations in K_v and K_Hα, load sharing, tip relief factor",
+        assumed="class 7; a coarser gear has larger load factors",
+    )
+    running_in: float = quantity(
+        "state of running in",
+        "Φ_E",
+        TS_6336_21,
+        default=0.0,
+        ge=0,
+        le=1,
+        tolerance=0.5,
+        text="1: run in; 0: as manufactured; for the integral temperature method",
+        assumed="0, flanks as manufactured; run-in ones have a lower integral temperature",
+    )
+
+
+@record
 class ScuffingInputs:
     """Inputs of a scuffing check.
 
@@ -693,6 +759,8 @@ class ScuffingInputs:
     If `lubrication` is "closed_form", only the formulas of Blok and of Dowson and Higginson are evaluated. If
     `lubrication` is "thermal_ehl", the thermal EHL contact under the local load is also solved, with the options in
     `film`.
+
+    `standard` and `standard_edition` belong to the checks by the standard, which stand beside the local ones.
 
     `line` is "flank" to check the whole flank, or "feature_line" to check only the paper's diagonal from A1 to E2.
     Every checked line has `path_points` equidistant points. `cooling` is only used if the bulk temperature follows from
@@ -744,6 +812,18 @@ class ScuffingInputs:
         "cooling",
         default_factory=Cooling,
         text="for the heat balance: how the oil reaches the teeth, what else heats it, what was measured",
+    )
+
+    standard: StandardFactors = quantity(
+        "standard", default_factory=StandardFactors, text="load factors and flanks for the checks by the standard alone"
+    )
+    standard_edition: StandardEdition = quantity(
+        "edition of the standard",
+        None,
+        TS_6336_20,
+        default="2017",
+        text="2017: ISO/TS 6336-20 and -21, X_R = Ra^0.25; 2000: ISO/TR 13989 as programs print it, X_R = Ra^0.5",
+        advanced=True,
     )
 
     @property

@@ -18,7 +18,7 @@ from solvers.heat_balance import Heat, cooling_in_force
 from solvers.lubricants import OilInUse, oil_in_use
 from solvers.oils import OilSheet
 from solvers.scuffing.contact_slices import Peak, reaches_base_circle
-from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, Temperatures
+from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, ScuffingTest, Temperatures
 from solvers.scuffing.micropitting.check import CheckedFlank, check_micropitting
 from solvers.scuffing.micropitting.wear import wear_asked_for
 from solvers.scuffing.model import solve
@@ -34,6 +34,7 @@ from solvers.scuffing.safety_results import (
     ScuffingPath,
     ThermalPath,
 )
+from solvers.scuffing.standard.check import check_by_standard
 from solvers.scuffing.thermal.blok import blok_flash
 from solvers.scuffing.thermal.bulk import BulkRule
 from solvers.scuffing.thermal.flank import (
@@ -116,7 +117,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     micropitting = check_micropitting(inputs, distribution, flash_map, film.thermal_ehl_min)
     paths = [_with_film_ratio(micropitting, *both) for both in zip(paths, lines, strict=True)]
     contact = None if bulk is None else _contact_temperature(inputs.temperatures, bulk, flash, deciding)
-    safety = None if contact is None else _safety(inputs.temperatures, contact, flash)
+    safety = _safety(inputs, distribution, asked.temperatures.scuffing_test, contact, flash)
     if heat is not None:
         heat, safety = _with_band(inputs.temperatures, rule, heat, flash, safety)
     return Scuffing(
@@ -266,14 +267,21 @@ def safety_factor(scuffing: float, oil: float, contact: float) -> float | None:
     return (scuffing - oil) / (contact - oil) if contact > oil else None
 
 
-def _safety(temperatures: Temperatures, contact: ContactTemperature, flash: Flash) -> Safety | None:
-    """Return the safety factors by Blok and by thermal EHL, or None if the scuffing temperature is unknown.
+def _safety(
+    inputs: ScuffingInputs,
+    distribution: LoadDistribution,
+    test: ScuffingTest | None,
+    contact: ContactTemperature | None,
+    flash: Flash,
+) -> Safety | None:
+    """Return the safety factors by Blok, by thermal EHL and by the standard; None without a temperature to compare.
 
-    The factor by Blok is computed twice: for the whole flank, and for the feature line alone.
+    The factor by Blok is computed twice: for the whole flank, and for the feature line alone. `test` is the scuffing
+    test as asked: the standard has its own X_L.
     """
-    if temperatures.scuffing is None:
+    limit, oil = inputs.temperatures.scuffing, inputs.temperatures.oil
+    if limit is None or contact is None:
         return None
-    limit, oil = temperatures.scuffing, temperatures.oil
     on_line = None if flash.feature_line_max is None else contact.bulk + flash.feature_line_max
     blok, feature, thermal = (
         None if hottest is None else safety_factor(limit, oil, hottest)
@@ -285,6 +293,7 @@ def _safety(temperatures: Temperatures, contact: ContactTemperature, flash: Flas
         feature_line_factor=feature,
         thermal_ehl_factor=thermal,
         verdict=None if blok is None else scuffing_risk(blok),
+        standard=check_by_standard(inputs, distribution, test),
     )
 
 

@@ -13,6 +13,7 @@ from solvers.quantity import computed, described, quantity, record
 from solvers.scuffing.inputs import ISO_TR_15144, TR_13989
 from solvers.scuffing.micropitting.results import Micropitting, Wear
 from solvers.scuffing.results import Derived, Flank, LoadDistribution
+from solvers.scuffing.standard.results import ScuffingStandard
 from solvers.scuffing.thermal.practice import ScuffingRisk
 from solvers.sources import OWN, XUE
 
@@ -95,7 +96,7 @@ class Flash:
         "mean coefficient of friction of the flash temperature",
         "μ_mB",
         TR_13989,
-        text="for Blok's formula: given, or by the oil (ISO/TR 13989-1); null without both",
+        text="for Blok's formula: given, or by the oil (ISO/TS 6336-20); null without both",
         default=None,
         equation="R5",
     )
@@ -229,7 +230,7 @@ class Film:
 class Safety:
     """Safety factors against scuffing (Eq. 26); a factor is None if the teeth are not hotter than the oil.
 
-    `scuffing` is the scuffing temperature [K]. `verdict` is the risk class by ISO/TR 13989-1 for Blok's factor. If the
+    `scuffing` is the scuffing temperature [K]. `verdict` is the risk class by ISO/TS 6336-20 for Blok's factor. If the
     heat balance states a band of this factor, `verdict` is the risk class for the smallest factor in the band.
     """
 
@@ -258,11 +259,16 @@ class Safety:
     verdict: ScuffingRisk | None = quantity(
         "risk of scuffing",
         None,
-        "ISO/TR 13989-1, quoted, not verified against the standard",
+        "ISO/TS 6336-20, quoted, not verified against the standard",
         text=(
             "safety below 1: high; 1 to 2: moderate; above 2: low; at the lower end of the band if there "
             "is one; null without a safety factor"
         ),
+        default=None,
+    )
+    standard: ScuffingStandard | None = quantity(
+        "scuffing by the standard",
+        text="flash and integral temperature method with their own load and temperatures, beside the local check",
         default=None,
     )
 

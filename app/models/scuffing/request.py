@@ -88,12 +88,24 @@ class Micropitting(Section, of=si.MicropittingCheck):
         }
 
 
-class MeshModel(LoadDistributionModel, FilmModel, of=si.ScuffingInputs, without=("line", "micropitting", "cooling")):
+class StandardLoad(Section, of=si.StandardFactors):
+    """Load factors and flanks for the checks by the standard; they never load the local checks."""
+
+
+OF_A_PAIR = ("line", "standard_edition")
+
+
+class MeshModel(
+    LoadDistributionModel,
+    FilmModel,
+    of=si.ScuffingInputs,
+    without=(*OF_A_PAIR, "micropitting", "cooling", "standard"),
+):
     """Model options of the load distribution and of the film."""
 
 
-class ScuffingModel(MeshModel, of=si.ScuffingInputs, only=("line",)):
-    """Model options of the load distribution and of the film, and the part of the flank that is checked."""
+class ScuffingModel(MeshModel, of=si.ScuffingInputs, only=OF_A_PAIR):
+    """Model options of load distribution and film, the part of the flank to check, and the edition of the standard."""
 
 
 PRACTICAL_FRICTION = Input.of(
@@ -103,10 +115,10 @@ PRACTICAL_FRICTION = Input.of(
     default_text="by the friction law, from the oil",
 )
 LAW = (
-    "for scuffing, the mean coefficient of ISO/TR 13989-1 is used, with the computed K_Hβ and with K_Hα = 1; for the "
+    "for scuffing, the mean coefficient of ISO/TS 6336-20 is used, with the computed K_Hβ and with K_Hα = 1; for the "
     "losses, Schlenk's coefficient is used, without load factors"
 )
-NOT_USED = "not used, because `model.friction` selects the coefficient of ISO/TR 13989-1"
+NOT_USED = "not used, because `model.friction` selects the coefficient of ISO/TS 6336-20"
 ESTER_FACTOR = (
     "the lubricant factor of an ester is not known. For scuffing, the factor of a mineral oil is used; for the "
     "losses, the factor of a polyalphaolefin is used if no coefficient of friction is given"
@@ -200,9 +212,9 @@ class MeshInOil(Request):
 
     @property
     def _standard_film_asked(self) -> bool:
-        """Whether the film of the standard is computed. This film is only valid for spur gears without relief."""
+        """Whether the film of the standard is computed. This film is only valid for gears without relief."""
         relief = self.modifications.tip_relief_um or self.modifications.root_relief_um
-        return self.micropitting is not None and not relief and self.gears.helix_angle_deg == 0.0
+        return self.micropitting is not None and not relief
 
     def unused(self) -> dict[str, bool]:
         dry, standard = not self.lubricant.known, self._standard_film_asked
@@ -247,6 +259,7 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
     )
     cooling: Annotated[GearCooling, Input.of(si.ScuffingInputs, "cooling")] = GearCooling()
     micropitting: Annotated[Micropitting | None, Input.of(si.ScuffingInputs, "micropitting")] = None
+    standard: Annotated[StandardLoad, Input.of(si.ScuffingInputs, "standard")] = StandardLoad()
     model: Annotated[
         ScuffingModel, Input("model", text="options where the paper leaves the model open", advanced=True)
     ] = ScuffingModel()
@@ -270,7 +283,19 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
     def unused(self) -> dict[str, bool]:
         of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg")
         single = {"load.axial_force_n": self.gears.gap_width_mm is None}
-        return super().unused() | dict.fromkeys(of_a_unit, True) | single
+        scuffing = self._scuffing_asked
+        standard = {
+            "standard": not (scuffing or self._standard_film_asked),
+            "standard.running_in": not scuffing,
+            "model.standard_edition": not scuffing,
+        }
+        return super().unused() | dict.fromkeys(of_a_unit, True) | single | standard
+
+    @property
+    def _scuffing_asked(self) -> bool:
+        """Whether the pair is checked against scuffing, locally and by the standard."""
+        limit = self.temperatures.scuffing_c is not None or self.temperatures.scuffing_test is not None
+        return bool(self.lubricant.known) and limit
 
     def inputs(self) -> si.ScuffingInputs:
         return self.scuffing_inputs(*self.running())

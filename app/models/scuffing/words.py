@@ -18,9 +18,11 @@ from solvers.heat_balance.notices import KNOWN_WITHIN
 from solvers.lubricants import OilInUse
 from solvers.scuffing import safety_results as results
 from solvers.scuffing.micropitting import results as film_results
+from solvers.scuffing.standard import results as standard_results
+from solvers.scuffing.standard.load_factors import LoadFactors
 
 OPTIONAL_CHAPTERS = {"micropitting": "micropitting", "heat": "heat-balance"}
-FILM_SAFETY = View(limit=1.0, bound="lower")
+ABOVE_ONE = View(limit=1.0, bound="lower")
 
 named(
     MicropittingTestFilm=film_results.FilmOfTest,
@@ -34,14 +36,18 @@ named(
     BandOfHeat=heat.HeatBand,
     HeatBalanceResult=heat.Heat,
     FlashTemperature=results.Flash,
+    StandardLoadFactors=LoadFactors,
+    StandardFlashPoint=standard_results.FlashPoint,
 )
-component(film_results.LocalPoint, "LocalFilmPoint", safety=FILM_SAFETY)
+component(film_results.LocalPoint, "LocalFilmPoint", safety=ABOVE_ONE)
 component(
     film_results.LocalFilm,
     safety=View(limit=1.0, bound="lower", needs="micropitting.failure_load_stage", verdict=".verdict"),
 )
-component(film_results.StandardPoint, "StandardFilmPoint", safety=FILM_SAFETY)
-component(film_results.StandardFilm, safety=FILM_SAFETY)
+component(film_results.StandardPoint, "StandardFilmPoint", safety=ABOVE_ONE)
+component(film_results.StandardFilm, safety=ABOVE_ONE)
+component(standard_results.FlashMethod, safety=ABOVE_ONE)
+component(standard_results.IntegralMethod, safety=ABOVE_ONE, load_safety=ABOVE_ONE)
 component(
     results.ContactTemperature,
     "ContactTemperatureResult",

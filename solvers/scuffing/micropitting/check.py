@@ -22,6 +22,7 @@ from solvers.scuffing.micropitting.results import (
 )
 from solvers.scuffing.micropitting.standard import characteristic_points, has_standard_film, solve_standard
 from solvers.scuffing.results import LoadDistribution
+from solvers.scuffing.standard.check import factors_of
 from solvers.scuffing.thermal.flank import FaceFunction, FlashMap
 
 LIKELY_BELOW, UNLIKELY_ABOVE = 1.0, 2.0  # limits of the safety factor, from common practice
@@ -127,7 +128,9 @@ def _standard(
     if oil is None or not moving or not has_standard_film(given, path):
         return None
     temperatures = inputs.temperatures
-    standard = solve_standard(given, path, oil, temperatures.oil, temperatures.oil_supply, check.quality_grade)
+    factors, load = factors_of(inputs, distribution), given.load
+    torque = load.helix_torque * load.application_factor * load.mesh_load_factor * factors.product
+    standard = solve_standard(given, path, oil, temperatures.oil, temperatures.oil_supply, check.quality_grade, torque)
     values = zip(standard.force_ratio, standard.contacts.pressure, *standard.films, strict=True)
     points = tuple(
         StandardPoint(
@@ -137,7 +140,7 @@ def _standard(
     )
     least = min(point.ratio for point in points)
     return StandardFilm(
-        standard.friction, standard.bulk, standard.loss_factor, least, _safety(least, permissible), points
+        standard.friction, standard.bulk, standard.loss_factor, least, _safety(least, permissible), points, factors
     )
 
 
