@@ -629,8 +629,8 @@ class MicropittingCheck:
         le=10,
         text="load stage at which the oil fails the micropitting test",
         if_above=(
-            '"above 10" on a data sheet means that the oil passed the last stage; enter 10, which is on the safe side, '
-            "or the permissible specific film thickness instead"
+            '"above 10" on a data sheet means that the oil passed the last stage; enter 10 or ">10", which is on the '
+            "safe side, or the permissible specific film thickness instead"
         ),
         default_text="no safety factor, unless a permissible film thickness is given",
         assumed="no failure load stage and no permissible film thickness given: films without a safety factor",
@@ -750,8 +750,8 @@ class ScuffingInputs:
     """Inputs of a scuffing check.
 
     If `oil` is given, a given `lubricant` is not used; the calculation computes `lubricant` from `oil` at the bulk
-    temperature. If neither `oil` nor `lubricant` is given, film, contact temperature and safety factor are not
-    computed.
+    temperature. If neither `oil` nor `lubricant` is given, the pair is dry or greased: no film, and contact temperature
+    and safety factor only from given temperatures and friction.
 
     If `friction` is "given", the coefficient of friction in `distribution` is used. If `friction` is "iso_tr_13989",
     Blok's flash temperature uses the mean coefficient of ISO/TR 13989-1, and the losses use Schlenk's coefficient.

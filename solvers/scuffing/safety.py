@@ -48,7 +48,7 @@ from solvers.scuffing.thermal.flank import (
 from solvers.scuffing.thermal.misalignment import misalignment_left_out
 from solvers.scuffing.thermal.places import Places, solve_places
 from solvers.scuffing.thermal.practice import scuffing_risk
-from solvers.scuffing.thermal.temperatures import in_force, oil_notices
+from solvers.scuffing.thermal.temperatures import oil_notices, pair_in_force
 from solvers.scuffing.thermal.thermal_path import SolvedLine, solve_line, solver_notices
 from solvers.scuffing.thermal.verdict import (
     CheckedLine,
@@ -68,7 +68,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     """Compute the load distribution of a pair, of two helices that of one, and check it against scuffing (Eq. 16).
 
     Raises InvalidInput `exclusive` if a bulk temperature is given although `bulk_method` is "estimated"; the errors of
-    `model.solve` and of `in_force`; the error of the thermal EHL solver if this solver refuses every point.
+    `model.solve` and of `pair_in_force`; the error of the thermal EHL solver if this solver refuses every point.
     """
     if inputs.temperatures.bulk_method == "estimated" and inputs.temperatures.bulk is not None:
         message = (
@@ -77,7 +77,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         )
         raise InvalidInput("exclusive", message, "temperatures.bulk_method")
     asked = inputs
-    inputs, distribution, flash_map, heat, rule, ran = in_force(inputs, solve(inputs.distribution))
+    inputs, distribution, flash_map, heat, rule, ran = pair_in_force(inputs, solve(inputs.distribution))
     given, bulk = inputs.distribution, inputs.temperatures.bulk
     whole = inputs.line == "flank"
     hottest = find_hottest(given, distribution, flash_map) if whole else None
@@ -86,7 +86,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     warnings = (*distribution.warnings, *oil_notices(inputs, distribution.path_of_contact, ran))
     places: Places | None = None
     solved: list[SolvedLine] = []
-    thermal = inputs.lubrication == "thermal_ehl" and bulk is not None
+    thermal = inputs.lubrication == "thermal_ehl" and inputs.lubricant is not None
     if thermal and thinnest is not None:
         surfaces = partial(_surfaces, inputs.temperatures)
         places = solve_places(inputs, distribution, flash_map, film_at, (hottest, thinnest), surfaces)
@@ -124,7 +124,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         distribution=distribution,
         flash=flash,
         contact_temperature=contact,
-        film=None if bulk is None else film,
+        film=None if inputs.lubricant is None else film,
         safety=safety,
         path=paths[0],
         hottest_path=paths[1] if len(paths) > 1 else None,

@@ -419,17 +419,20 @@ class HeatedFlank(Flank):
 class Scuffing:
     """Results of a scuffing check, with the load distribution on which the check is based.
 
-    `safety` is None without a scuffing temperature. Contact temperature, film and safety are None without an oil.
+    `safety` is None without a scuffing temperature, contact temperature and safety without a bulk temperature, the film
+    without an oil.
     `warnings` are the warnings of the load distribution and of the check.
     """
 
     distribution: LoadDistribution
     flash: Flash = quantity("flash temperature")
     contact_temperature: ContactTemperature | None = quantity(
-        "contact temperature", text="null without an oil or a bulk temperature"
+        "contact temperature", text="null without a bulk temperature, which without an oil must be given"
     )
     film: Film | None = quantity("film", text="film thickness; null without an oil or a bulk temperature")
-    safety: Safety | None = quantity("safety", text="safety factors; null without a scuffing temperature or an oil")
+    safety: Safety | None = quantity(
+        "safety", text="safety factors; null without a scuffing temperature or a contact temperature"
+    )
     path: ScuffingPath = quantity("scuffing check along the feature line", detail="curves")
     hottest_path: ScuffingPath | None = quantity(
         "scuffing check along the hottest profile",

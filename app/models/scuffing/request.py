@@ -81,6 +81,14 @@ class Micropitting(Section, of=si.MicropittingCheck):
 
     exclusive: ClassVar = (("failure_load_stage", "permissible_ratio"),)
 
+    @model_validator(mode="before")
+    @classmethod
+    def passed_the_last_stage(cls, sent: Any) -> Any:
+        """Take ">10", as FVA 54/7 prints it, for the last stage."""
+        if isinstance(sent, dict) and sent.get("failure_load_stage") == f">{LAST_STAGE}":
+            return sent | {"failure_load_stage": LAST_STAGE}
+        return sent
+
     def unused(self) -> dict[str, bool]:
         given = self.permissible_ratio is not None
         return dict.fromkeys(("failure_load_stage", "material_factor"), given) | {
@@ -135,6 +143,10 @@ SMOOTH_FILM = (
     "thermal EHL may therefore rise by some percent with the oil temperature, although the film becomes thinner and "
     "the safety by Blok falls"
 )
+
+
+LAST_STAGE = 10
+PASSED = '10 is the last stage of the test; an oil that passed it (">10") is taken as 10, which is on the safe side'
 
 
 class MeshInOil(Request):
@@ -214,7 +226,7 @@ class MeshInOil(Request):
     def _standard_film_asked(self) -> bool:
         """Whether the film of the standard is computed. This film is only valid for gears without relief."""
         relief = self.modifications.tip_relief_um or self.modifications.root_relief_um
-        return self.micropitting is not None and not relief
+        return self.lubricant.known and self.micropitting is not None and not relief
 
     def unused(self) -> dict[str, bool]:
         dry, standard = not self.lubricant.known, self._standard_film_asked
@@ -246,6 +258,8 @@ class MeshInOil(Request):
             reasons["temperatures.bulk_method"] = GIVEN_BULK
         if self.model.lubrication == "thermal_ehl":
             reasons["model.lubrication"] = SMOOTH_FILM
+        if self.micropitting is not None and self.micropitting.failure_load_stage == LAST_STAGE:
+            reasons["micropitting.failure_load_stage"] = PASSED
         return reasons
 
 
@@ -283,13 +297,20 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
     def unused(self) -> dict[str, bool]:
         of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg")
         single = {"load.axial_force_n": self.gears.gap_width_mm is None}
-        scuffing = self._scuffing_asked
+        scuffing, dry = self._scuffing_asked, not self.lubricant.known
+        test = self.temperatures.scuffing_test
+        of_oil = {
+            "temperatures": dry and self.temperatures.bulk_c is None,
+            "temperatures.oil_supply": dry
+            or (self.bulk_method == "given" and not (scuffing or self._standard_film_asked)),
+            "temperatures.scuffing_test": dry and test is not None and test.lubricant_factor is None,
+        }
         standard = {
             "standard": not (scuffing or self._standard_film_asked),
             "standard.running_in": not scuffing,
             "model.standard_edition": not scuffing,
         }
-        return super().unused() | dict.fromkeys(of_a_unit, True) | single | standard
+        return super().unused() | dict.fromkeys(of_a_unit, True) | single | of_oil | standard
 
     @property
     def _scuffing_asked(self) -> bool:
