@@ -25,12 +25,10 @@ from solvers.scuffing.standard.results import FlashMethod, IntegralMethod
 STPLUS = "STplus 11.1F, FZG C gears"
 TURBINE = "report of a wind turbine stage"
 ZERO = 273.15  # K
+# The dedendum, which is not printed, makes the printed single stiffness of 11.48 N/(mm um).
 FZG_C = GearPairInputs(
-    # The dedendum, which is not printed, makes the printed single stiffness of 11.48 N/(mm um).
-    *(
-        GearTeeth(z, x, None, 1.415, tip_diameter=tip)
-        for z, x, tip in ((16, 0.1818, 82.45e-3), (24, 0.1714, 118.35e-3))
-    ),
+    GearTeeth(16, 0.1818, None, 1.415, tip_diameter=82.45e-3),
+    GearTeeth(24, 0.1714, None, 1.415, tip_diameter=118.35e-3),
     module=4.5e-3,
     face_width=14e-3,
     centre_distance=91.5e-3,
@@ -42,12 +40,10 @@ FVA_3A = OilSheet(90.02e-6, 10.41e-6, density_15=884.1)
 STAGE = ScuffingTest(6)
 # K_v is printed as 1.03 and K_Hbeta as 1.32; 1.0291 makes the printed line load of 350.4 N/mm.
 PRINTED_FACTORS = StandardFactors(face_load_factor=1.32, dynamic_factor=1.0291, quality_grade=5)
+# The dedendum is not printed.
 TURBINE_STAGE = GearPairInputs(
-    # The dedendum is not printed.
-    *(
-        GearTeeth(z, x, None, 1.4, tip_diameter=tip)
-        for z, x, tip in ((24, 0.48, 380.747e-3), (95, 0.6691, 1395.376e-3))
-    ),
+    GearTeeth(24, 0.48, None, 1.4, tip_diameter=380.747e-3),
+    GearTeeth(95, 0.6691, None, 1.4, tip_diameter=1395.376e-3),
     module=14e-3,
     helix_angle=radians(10.0),
     face_width=360e-3,

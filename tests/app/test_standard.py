@@ -60,7 +60,7 @@ def test_factors_beyond_their_range_are_refused(name: str, value: float) -> None
 
 
 def test_page_and_report_show_both_side_by_side_and_say_why_they_differ() -> None:
-    case = Asked("/scuffing", pairs_of(changed(MICRO, {"modifications": {}, "temperatures.scuffing_c": 300.0})))
+    case = Asked("/scuffing", pairs_of(changed(MICRO, {"modifications": {}})))
     for html in (html_of(case), report(case, "").content.decode()):
         for title in ("Scuffing: local and by the standard", "Micropitting: local and by the standard"):
             table = html.partition(title)[2].partition("They differ because")[0]

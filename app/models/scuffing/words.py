@@ -148,9 +148,10 @@ SCUFFING_BESIDE = Beside(
         ("scuffing temperature", ("safety.scuffing_c", f"{_FLASH}.scuffing_c", f"{_INTEGRAL}.scuffing_c")),
         ("safety factor", ("safety.blok_factor", f"{_FLASH}.safety", f"{_INTEGRAL}.safety")),
     ),
-    "They differ because the local check takes the computed load of every place, the bulk temperature in force and "
-    "X_L of the test at 90 °C, while the standard spreads one load over the face, raises it by K_v, K_Hα and K_Hβ, "
-    "takes the flanks as flooded and X_L at the oil temperature; the integral method compares means.",
+    "They differ because the local check takes the computed load of every place with its modifications, the bulk "
+    "temperature in force and X_L of the test at 90 °C, while the standard has the load sharing of unmodified profiles "
+    "on an even load, raised by K_v, K_Hα and K_Hβ, flooded flanks and X_L at the oil temperature; the integral method "
+    "compares means.",
     "safety.standard",
 )
 MICROPITTING_BESIDE = Beside(

@@ -22,6 +22,7 @@ from solvers.scuffing.thermal.practice import (
 
 ROUGHNESS_EXPONENT: dict[StandardEdition, float] = {"2017": 0.25, "2000": 0.5}
 STRETCH_POINTS = 101  # points of each stretch of the path, chosen; the mean is exact to 1e-4
+ROUNDING = 1e-12
 BESIDE = 1e-9  # share of the path by which a point is moved into the stretch with one pair in contact
 
 
@@ -122,7 +123,9 @@ def flash_temperature(
     speed = mesh.given.load.pinion_speed / (2 * np.pi)  # n_1/60
     first, second = mesh.radii(x)
     ratio = mesh.path.pair.wheel.teeth / mesh.path.pair.pinion.teeth
-    rolling = np.abs(np.sqrt(first * speed) - np.sqrt(second * speed / ratio))
+    one, other = np.sqrt(first * speed), np.sqrt(second * speed / ratio)
+    rolling = np.abs(one - other)
+    rolling[rolling < ROUNDING * one] = 0.0  # at C
     load = (share * mesh.line_load) ** 0.75
     heated = 2.52 * friction * mesh.thermo_elastic_factor(x) / 50.0 * approach * load
     return np.asarray(heated * rolling / mesh.reduced_radius(x) ** 0.25)

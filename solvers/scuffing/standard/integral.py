@@ -138,7 +138,7 @@ def geometry_factor(mesh: StandardMesh, ends: AddendumContact) -> float:
     first, second = radii if ends.pinion_drives else radii[::-1]
     teeth = mesh.path.pair.pinion.teeth, mesh.path.pair.wheel.teeth
     ratio = max(teeth) / min(teeth)
-    return 0.51 * sqrt(ratio + 1) * abs(sqrt(first) - sqrt(second / ratio)) / (first * second) ** 0.25
+    return 0.51 * sqrt(ratio + 1) * abs(sqrt(first) - sqrt(second / ratio)) / sqrt(sqrt(first * second))
 
 
 def approach_factor(ends: AddendumContact) -> float:
