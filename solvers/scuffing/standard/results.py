@@ -22,7 +22,7 @@ class FlashPoint:
         equation="standard#flash-temperature-method",
     )
     approach_factor: float = quantity("approach factor at the point", "X_J", TS_6336_20, equation="T8")
-    flash: float = quantity("flash temperature of the standard at the point", "Θ_fl", TS_6336_20, unit="k")
+    flash: float = quantity("flash temperature of the standard at the point", "θ_fl", TS_6336_20, unit="k")
 
 
 @record(equation="standard#flash-temperature-method")
@@ -50,17 +50,17 @@ class FlashMethod:
     optimal_relief: float = quantity(
         "optimal tip relief of the flash temperature method", "C_eff", TS_6336_20, unit="um", equation="T7"
     )
-    mean_flash: float = quantity("mean flash temperature of the standard", "Θ_flm", TS_6336_20, unit="k", equation="T9")
+    mean_flash: float = quantity("mean flash temperature of the standard", "θ_flm", TS_6336_20, unit="k", equation="T9")
     max_flash: float = quantity(
-        "largest flash temperature of the standard", "Θ_fl,max", TS_6336_20, unit="k", equation="T9"
+        "largest flash temperature of the standard", "θ_fl,max", TS_6336_20, unit="k", equation="T9"
     )
     bulk: float = quantity(
-        "bulk temperature of the flash temperature method", "Θ_M", TS_6336_20, unit="c", equation="R8"
+        "bulk temperature of the flash temperature method", "θ_M", TS_6336_20, unit="c", equation="R8"
     )
-    contact: float = quantity("contact temperature of the flash temperature method", "Θ_B,max", TS_6336_20, unit="c")
+    contact: float = quantity("contact temperature of the flash temperature method", "θ_B,max", TS_6336_20, unit="c")
     scuffing: float | None = quantity(
         "scuffing temperature of the flash temperature method",
-        "Θ_S",
+        "θ_S",
         TS_6336_20,
         unit="c",
         text="given, or by the scuffing test with X_L at the oil temperature",
@@ -106,14 +106,14 @@ class IntegralMethod:
         "optimal tip relief of the integral temperature method", "C_eff", TS_6336_21, unit="um", equation="T14"
     )
     tip_flash: float = quantity(
-        "flash temperature at the pinion's tip, under the whole load", "Θ_flaE", TS_6336_21, unit="k"
+        "flash temperature at the pinion's tip, under the whole load", "θ_flaE", TS_6336_21, unit="k"
     )
-    mean_flash: float = quantity("mean flash temperature over the path", "Θ_flaint", TS_6336_21, unit="k")
-    bulk: float = quantity("bulk temperature of the integral temperature method", "Θ_M", TS_6336_21, unit="c")
-    integral: float = quantity("integral temperature", "Θ_int", TS_6336_21, unit="c")
+    mean_flash: float = quantity("mean flash temperature over the path", "θ_flaint", TS_6336_21, unit="k")
+    bulk: float = quantity("bulk temperature of the integral temperature method", "θ_M", TS_6336_21, unit="c")
+    integral: float = quantity("integral temperature", "θ_int", TS_6336_21, unit="c")
     test_bulk: float | None = quantity(
         "bulk temperature of the scuffing test",
-        "Θ_MT",
+        "θ_MT",
         TS_6336_21,
         unit="c",
         text="null without a test",
@@ -121,14 +121,14 @@ class IntegralMethod:
     )
     test_flash: float | None = quantity(
         "mean flash temperature of the scuffing test",
-        "Θ_flaintT",
+        "θ_flaintT",
         TS_6336_21,
         unit="k",
         text="null without a test",
         equation="T17",
     )
     scuffing: float | None = quantity(
-        "scuffing integral temperature", "Θ_intS", TS_6336_21, unit="c", text="null without a test", equation="T17"
+        "scuffing integral temperature", "θ_intS", TS_6336_21, unit="c", text="null without a test", equation="T17"
     )
     safety: float | None = quantity(
         "safety factor of the integral temperature method",
