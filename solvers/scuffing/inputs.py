@@ -16,9 +16,8 @@ from solvers.sources import ISO_6336, XUE
 
 FZG = "ISO 14635-1"
 ISO_TR_15144 = "ISO/TR 15144-1:2014, as read in a public implementation"
-TR_13989 = "ISO/TS 6336-20, as read in a public implementation"
-TS_6336_20 = "ISO/TS 6336-20:2017, as read in a public implementation"
-TS_6336_21 = "ISO/TS 6336-21:2017, as read in a public implementation"
+TS_6336_20 = "ISO/TS 6336-20:2017 (ISO/TR 13989-1), as read in a public implementation"
+TS_6336_21 = "ISO/TS 6336-21:2017 (ISO/TR 13989-2), as read in a public implementation"
 
 FrictionMethod = Literal["given", "iso_tr_13989"]
 BulkMethod = Literal["given", "estimated", "heat_balance"]
@@ -486,7 +485,7 @@ class ScuffingTest:
     structure_factor: float = quantity(
         "structural factor",
         "X_W",
-        TR_13989,
+        TS_6336_20,
         default=1.0,
         ge=0.1,
         le=2,
@@ -495,7 +494,7 @@ class ScuffingTest:
     lubricant_factor: float | None = quantity(
         "lubricant factor",
         "X_L",
-        TR_13989,
+        TS_6336_20,
         default=None,
         ge=0.1,
         le=2,
@@ -536,7 +535,7 @@ class Temperatures:
     bulk_method: BulkMethod | None = quantity(
         "bulk temperature method",
         None,
-        TR_13989,
+        TS_6336_20,
         default=None,
         text=(
             "given: the bulk temperature stated; estimated: from oil temperature, lubrication and "
@@ -554,7 +553,7 @@ class Temperatures:
     oil_supply: OilSupply = quantity(
         "lubrication system factor",
         "X_S",
-        TR_13989,
+        TS_6336_20,
         default="spray",
         assumed="spray lubrication; scales the estimated bulk temperature",
     )
@@ -754,7 +753,7 @@ class ScuffingInputs:
     and safety factor only from given temperatures and friction.
 
     If `friction` is "given", the coefficient of friction in `distribution` is used. If `friction` is "iso_tr_13989",
-    Blok's flash temperature uses the mean coefficient of ISO/TR 13989-1, and the losses use Schlenk's coefficient.
+    Blok's flash temperature uses the mean coefficient of ISO/TS 6336-20, and the losses use Schlenk's coefficient.
 
     If `lubrication` is "closed_form", only the formulas of Blok and of Dowson and Higginson are evaluated. If
     `lubrication` is "thermal_ehl", the thermal EHL contact under the local load is also solved, with the options in
@@ -774,9 +773,9 @@ class ScuffingInputs:
     friction: FrictionMethod = quantity(
         "friction law",
         None,
-        TR_13989,
+        TS_6336_20,
         default="iso_tr_13989",
-        text="given coefficient; or by the oil: ISO/TR 13989-1 for the flash temperature, Schlenk for the losses",
+        text="given coefficient; or by the oil: ISO/TS 6336-20 for the flash temperature, Schlenk for the losses",
     )
     lubrication: Lubrication = quantity(
         "lubrication model",

@@ -10,7 +10,7 @@ from solvers.heat_balance.results import CoolingInForce, Heat
 from solvers.lubricants import OilInUse
 from solvers.notices import Notice
 from solvers.quantity import computed, described, quantity, record
-from solvers.scuffing.inputs import ISO_TR_15144, TR_13989
+from solvers.scuffing.inputs import ISO_TR_15144, TS_6336_20
 from solvers.scuffing.micropitting.results import Micropitting, Wear
 from solvers.scuffing.results import Derived, Flank, LoadDistribution
 from solvers.scuffing.standard.results import ScuffingStandard
@@ -95,7 +95,7 @@ class Flash:
     friction_coefficient: float | None = quantity(
         "mean coefficient of friction of the flash temperature",
         "μ_mB",
-        TR_13989,
+        TS_6336_20,
         text="for Blok's formula: given, or by the oil (ISO/TS 6336-20); null without both",
         default=None,
         equation="R5",
@@ -113,7 +113,7 @@ class BulkInForce:
     bulk_estimate: float | None = quantity(
         "estimated bulk temperature",
         "θ_M,est",
-        TR_13989,
+        TS_6336_20,
         unit="c",
         text="null if the bulk temperature is given, without an oil, or without a mean flash temperature",
         equation="R8",
@@ -292,7 +292,7 @@ class ScuffingDerived:
     lubricant_factor: float | None = quantity(
         "lubricant factor of the scuffing test used",
         "X_L",
-        TR_13989,
+        TS_6336_20,
         text="null without a scuffing test",
         equation="R9",
     )

@@ -128,7 +128,7 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
     The flash temperature is computed with the coefficient in the returned inputs.
 
     If the coefficient of friction is given, it is used for the flash temperature and for the losses. If it is not
-    given, two coefficients are estimated. The coefficient for the flash temperature is that of ISO/TR 13989-1, which is
+    given, two coefficients are estimated. The coefficient for the flash temperature is that of ISO/TS 6336-20, which is
     on the safe side for scuffing. The coefficient for the losses is Schlenk's, which is a mean value for the
     efficiency. If the oil, the load or the speed is missing, both estimates are None.
     """
@@ -242,7 +242,7 @@ def _material_notices(inputs: ScuffingInputs, bulk: BulkInForce) -> Iterator[Not
     test = inputs.micropitting
     safe_film = test is not None and (test.permissible_ratio is not None or test.failure_load_stage is not None)
     estimated = [name for name, is_estimated in estimates.items() if is_estimated]
-    laws = [f"ISO/TR 13989-1 estimates {' and '.join(estimated)}"] if estimated else []
+    laws = [f"ISO/TS 6336-20 estimates {' and '.join(estimated)}"] if estimated else []
     laws += ["ISO/TR 15144-1 states the safety against micropitting"] if safe_film else []
     given, (least, largest) = inputs.distribution, STEEL_MODULI
     for name, solid in (("pinion", given.pinion_material), ("wheel", given.wheel_material)):
