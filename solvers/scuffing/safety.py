@@ -34,7 +34,7 @@ from solvers.scuffing.safety_results import (
     ScuffingPath,
     ThermalPath,
 )
-from solvers.scuffing.standard.check import check_by_standard
+from solvers.scuffing.standard.check import check_by_standard, standard_notices
 from solvers.scuffing.thermal.blok import blok_flash
 from solvers.scuffing.thermal.bulk import BulkRule
 from solvers.scuffing.thermal.flank import (
@@ -138,6 +138,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         + misalignment_left_out(asked, distribution, safety)
         + (() if heat is None else heat.warnings)
         + micropitting.warnings
+        + tuple(standard_notices(given, None if safety is None else safety.standard))
         + path_notices(distribution, paths[0], status, contact, safety, unknown),
         unsolved_points=status.count("no_solution") + status.count("refused"),
     )

@@ -32,7 +32,7 @@ def fields(found: dict[str, Any]) -> set[str]:
 
 
 def test_the_standard_stands_beside_the_local_check() -> None:
-    found = asked(STARTER, {})
+    found = asked(STARTER, {"modifications": {}})
     standard = found["safety"]["standard"]
     assert standard["edition"] == "2017"
     assert standard["factors"]["face_load_factor"] == found["load"]["face_load_factor"]
@@ -41,9 +41,18 @@ def test_the_standard_stands_beside_the_local_check() -> None:
     )
     assert standard["integral"]["safety"] > 0.0
     assert {"standard.quality_grade", "standard.running_in"} < fields(found)
-    report_of_2000 = asked(STARTER, {"model.standard_edition": "2000"})["safety"]["standard"]
+    changes = {"modifications": {}, "model.standard_edition": "2000"}
+    report_of_2000 = asked(STARTER, changes)["safety"]["standard"]
     assert report_of_2000["flash"]["roughness_factor"] == pytest.approx(standard["flash"]["roughness_factor"] ** 2)
     assert report_of_2000["integral"] == standard["integral"]
+
+
+def test_a_relieved_pair_has_the_integral_method_alone_and_says_why() -> None:
+    found = asked(STARTER, {})
+    assert found["safety"]["standard"]["flash"] is None
+    assert found["safety"]["standard"]["integral"]["safety"] > 0.0
+    (notice,) = (each for each in found["warnings"] if each["code"] == "no_standard_flash")
+    assert (notice["rank"], "relief" in notice["message"]) == ("note", True)
 
 
 def test_factors_for_the_standard_are_not_asked_where_nothing_uses_them() -> None:

@@ -149,9 +149,9 @@ SCUFFING_BESIDE = Beside(
         ("safety factor", ("safety.blok_factor", f"{_FLASH}.safety", f"{_INTEGRAL}.safety")),
     ),
     "They differ because the local check takes the computed load of every place with its modifications, the bulk "
-    "temperature in force and X_L of the test at 90 °C, while the standard has the load sharing of unmodified profiles "
-    "on an even load, raised by K_v, K_Hα and K_Hβ, flooded flanks and X_L at the oil temperature; the integral method "
-    "compares means.",
+    "temperature in force and X_L of the test at 90 °C, while the standard has one load for the whole face, raised by "
+    "K_v, K_Hα and K_Hβ, a load sharing that knows no relief, flooded flanks and X_L at the oil temperature; the "
+    "integral method compares means.",
     "safety.standard",
 )
 MICROPITTING_BESIDE = Beside(

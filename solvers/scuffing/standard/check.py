@@ -1,6 +1,10 @@
 """The check by the standard that stands beside the local one."""
 
-from solvers.scuffing.inputs import ScuffingInputs, ScuffingTest
+from collections.abc import Iterator
+
+from solvers.notices import Notice
+from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, ScuffingTest
+from solvers.scuffing.micropitting.standard import has_relief
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.standard.factors import load_factors
 from solvers.scuffing.standard.flash import solve_flash
@@ -14,6 +18,16 @@ def factors_of(inputs: ScuffingInputs, distribution: LoadDistribution) -> LoadFa
     """Return the load factors of the standard for the load distribution of the pair."""
     computed = distribution.load.face_load_factor or 1.0
     return load_factors(inputs.distribution, distribution.path_of_contact, inputs.standard, computed)
+
+
+def standard_notices(given: LoadDistributionInputs, standard: ScuffingStandard | None) -> Iterator[Notice]:
+    """Say why the flash temperature method has no numbers although the pair is checked by the standard."""
+    if standard is not None and standard.flash is None and has_relief(given):
+        message = (
+            "the flash temperature method of the standard cannot be computed: its load sharing factors of gears with "
+            "tip or root relief are not known; the integral temperature method can"
+        )
+        yield Notice("no_standard_flash", message, "modifications", rank="note")
 
 
 def check_by_standard(

@@ -8,7 +8,7 @@ from solvers.arrays import FloatArray
 from solvers.gears.pair import PathOfContact
 from solvers.scuffing.inputs import ScuffingTest, StandardEdition
 from solvers.scuffing.mesh_results import iso_load_sharing
-from solvers.scuffing.micropitting.standard import characteristic_points
+from solvers.scuffing.micropitting.standard import characteristic_points, has_relief
 from solvers.scuffing.standard.factors import MM, STIFFNESS, UM, nominal_line_load, stiffness_of
 from solvers.scuffing.standard.mesh import StandardMesh
 from solvers.scuffing.standard.results import FlashMethod, FlashPoint
@@ -27,14 +27,14 @@ BESIDE = 1e-9  # share of the path by which a point is moved into the stretch wi
 
 
 def solve_flash(mesh: StandardMesh, edition: StandardEdition, test: ScuffingTest | None) -> FlashMethod | None:
-    """Flash temperature method; None where the standard has no load sharing or the path reaches a base circle."""
+    """Flash temperature method; None with relief, without a load sharing factor and next to a base circle."""
     path = mesh.path
     x = _stretches(path)
     places = characteristic_points(path)
     at = _inside(path, np.array([*places.values()]))
     shares, along = (iso_load_sharing(path, each, mesh.asked.quality_grade) for each in (at, x))
     ends = mesh.reduced_radius(np.array([0.0, path.length])) * MM
-    if shares is None or along is None or np.any(ends < path.plane.least_radius):
+    if shares is None or along is None or has_relief(mesh.given) or np.any(ends < path.plane.least_radius):
         return None
     roughness = mesh.roughness ** ROUGHNESS_EXPONENT[edition]
     oil_factor = lubricant_factor(mesh.oil.viscosity * 1e-3, mesh.oil.kind)
@@ -104,13 +104,9 @@ def optimal_relief(mesh: StandardMesh) -> float:
 
 
 def approach_factor(mesh: StandardMesh, x: FloatArray, optimal: float) -> FloatArray:
-    """Approach factor X_J = 1 + (C_eff - C_a)/50 [(x_C - x)/g_alpha]^3 >= 1 before the pitch point, else 1 (Eq. T8).
-
-    C_a is the tip relief of the driven gear, which acts where contact begins [um].
-    """
+    """Approach factor of unmodified profiles, 1 + C_eff/50 [(x_C - x)/g_alpha]^3 before the pitch point (Eq. T8)."""
     before = np.maximum(mesh.pitch - x, 0.0) / mesh.path.length
-    relief = mesh.given.modifications.root_relief / UM
-    return np.maximum(1.0 + (optimal - relief) / 50.0 * before**3, 1.0)
+    return np.asarray(1.0 + optimal / 50.0 * before**3)
 
 
 def flash_temperature(

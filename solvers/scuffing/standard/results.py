@@ -152,7 +152,7 @@ class ScuffingStandard:
     factors: LoadFactors = quantity("load factors of the standard")
     flash: FlashMethod | None = quantity(
         "flash temperature method",
-        text="null where the standard has no load sharing factor, and where the path reaches a base circle",
+        text="null with tip or root relief, without a load sharing factor, and where the path reaches a base circle",
     )
     integral: IntegralMethod | None = quantity(
         "integral temperature method",

@@ -174,7 +174,7 @@ def test_relief_lowers_what_it_should() -> None:
     assert approach_factor(mesh, x, 20.0)[0] > approach_factor(mesh, x, 10.0)[0] > 1.0
     assert approach_factor(mesh, np.array([mesh.path.length]), 20.0)[0] == 1.0
     changed = replace(mesh, given=replace(mesh.given, modifications=Modifications(tip_relief=20e-6, root_relief=20e-6)))
-    assert approach_factor(changed, x, 20.0)[0] == 1.0
+    assert solve_flash(changed, "2017", STAGE) is None, "the load sharing of relieved profiles is not known"
     ends, relieved = addendum_contact(mesh), addendum_contact(changed)
     assert relief_factor(changed, relieved, 20.0) > relief_factor(mesh, ends, 20.0) > 1.0
     coarse = replace(changed, asked=replace(changed.asked, quality_grade=7))
