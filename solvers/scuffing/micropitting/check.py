@@ -101,12 +101,12 @@ def _local(
 def _local_points(
     distribution: LoadDistribution, film: FlankFilm | None, permissible: float | None
 ) -> list[LocalPoint]:
-    """Return the film at those characteristic points (A, B, C and so on) that lie on the path of contact.
+    """Return the film at the characteristic points A, B, C and so on of the feature line.
 
     The load of a spur pair jumps at B and D. Both belong to single contact there, as in method B.
     """
     path = distribution.path_of_contact
-    places = {name: x / path.length for name, x in characteristic_points(path).items() if 0.0 <= x <= path.length}
+    places = {name: x / path.length for name, x in characteristic_points(path).items()}
     psi = np.array([*places.values()])
     ratio = np.full(psi.size, np.nan)
     if film is not None:

@@ -35,14 +35,16 @@ class StandardFilms:
 def characteristic_points(path: PathOfContact) -> dict[PointName, float]:
     """Return the distances [m] from A of the points A, AB, B, C, D, DE and E of the path.
 
-    If the transverse contact ratio is not from 1 to 2, only A, C and E are returned.
+    If the transverse contact ratio is not from 1 to 2, only A, C and E are returned; C only if it lies on the path.
     """
     length, pitch = path.length, path.plane.base_pitch
-    at_pitch = path.pitch_point - path.start
-    if not has_single_contact(path):
-        return {"A": 0.0, "C": at_pitch, "E": length}
     inner, outer = length - pitch, pitch
-    return {"A": 0.0, "AB": inner / 2, "B": inner, "C": at_pitch, "D": outer, "DE": (outer + length) / 2, "E": length}
+    places: dict[PointName, float] = {"A": 0.0, "AB": inner / 2, "B": inner, "C": path.pitch_point - path.start}
+    places |= {"D": outer, "DE": (outer + length) / 2, "E": length}
+    left_out: set[str] = set() if has_single_contact(path) else {"AB", "B", "D", "DE"}
+    if not 0.0 <= places["C"] <= length:
+        left_out.add("C")
+    return {name: place for name, place in places.items() if name not in left_out}
 
 
 def has_single_contact(path: PathOfContact) -> bool:

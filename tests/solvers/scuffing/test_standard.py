@@ -1,7 +1,7 @@
 """The checks by the standard: branches meet, what is given wins, and nothing of them loads the local check."""
 
 from dataclasses import replace
-from math import isfinite
+from math import isfinite, radians
 
 import numpy as np
 import pytest
@@ -216,6 +216,25 @@ def test_without_load_motion_or_scuffing_temperature_the_standard_says_nothing()
     assert given.integral is not None
     assert given.flash.scuffing == 573.15
     assert (given.integral.scuffing, given.integral.safety, given.integral.load_safety) == (None, None, None)
+
+
+@pytest.mark.parametrize("helix", [0.0, 12.0])
+@pytest.mark.parametrize("shifts", [(1.2, -1.2), (1.1, -1.5)])
+def test_a_pitch_point_beyond_the_path_is_no_point_of_the_standard(shifts: tuple[float, float], helix: float) -> None:
+    """Its load sharing would be negative."""
+    pinion, wheel = GearTeeth(20, shifts[0], 0.8), GearTeeth(60, shifts[1], 1.0)
+    gears = GearPairInputs(pinion, wheel, 4e-3, 40e-3, helix_angle=radians(helix), rack_tip_radius=GROUND_FILLET)
+    design = LoadDistributionInputs(gears, Load(200.0, 157.0), resolution=COARSE)
+    found = solve_scuffing(checked(design, micropitting=MicropittingCheck(failure_load_stage=8)))
+    assert found.safety is not None
+    assert found.safety.standard is not None
+    assert found.safety.standard.integral is None
+    assert found.safety.standard.flash is not None
+    assert found.micropitting is not None
+    assert found.micropitting.standard is not None
+    for points in (found.safety.standard.flash.points, found.micropitting.standard.points):
+        assert [each.point for each in points] == ["A", "AB", "B", "D", "DE", "E"]
+        assert all(each.force_ratio > 0.0 for each in points)
 
 
 @examples(FEW, MANY, designs(), st.integers(1, 11), st.sampled_from(["2017", "2000"]))
