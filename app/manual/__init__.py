@@ -21,6 +21,7 @@ NAMES = (
     "load-distribution",
     "line-contact",
     "scuffing",
+    "standard",
     "micropitting",
     "drive-train",
     "double-helical",

@@ -26,6 +26,20 @@ class ScuffingPaths(NamedTuple):
     limit: str
 
 
+class Beside(NamedTuple):
+    """Values of several methods side by side: title, names of the methods, rows, and the sentence why they differ.
+
+    A row is its label and one path for each method; empty where a method has no such value. The table is shown where
+    the section `asked` of the answer is not null.
+    """
+
+    title: str
+    methods: tuple[str, ...]
+    rows: tuple[tuple[str, tuple[str, ...]], ...]
+    why: str
+    asked: str
+
+
 class FileResult(NamedTuple):
     """A result that is written into a REXS file: its path, the name of the attribute there, and the unit there."""
 
@@ -72,6 +86,7 @@ class Words:
     from_file      what a request takes from a REXS file; None: files make no such request
     to_file        results that go back into a REXS file
     chapters       the chapters of the manual about optional sections, by section
+    beside         values of several methods that stand side by side
     """
 
     verdicts: Callable[[Any], dict[str, Verdict]] = lambda _: {}
@@ -84,6 +99,7 @@ class Words:
     from_file: FromFile | None = None
     to_file: tuple[FileResult, ...] = ()
     chapters: Mapping[str, str] = field(default_factory=dict)
+    beside: tuple[Beside, ...] = ()
 
 
 class Cost(NamedTuple):

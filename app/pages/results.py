@@ -248,6 +248,32 @@ def conclusion(response: Documented) -> str:
     return "" if response.status == "no_solution" else words_of(response).conclusion(response)
 
 
+class BesideTable(NamedTuple):
+    """A table of values of several methods: rows of label, texts and unit, and why the methods differ."""
+
+    title: str
+    methods: tuple[str, ...]
+    rows: list[tuple[str, list[str], str]]
+    why: str
+
+
+def beside(response: Response) -> list[BesideTable]:
+    """Return the tables of values that several methods give, for the methods that the answer has."""
+    values = values_by_path(response)
+    given = {f"inputs.{path}": value for path, value in resolved(response).items()} if response.inputs else {}
+    tables = []
+    for title, methods, rows, why, asked in words_of(response).beside:
+        if not any(path.startswith(f"{asked}.") for path in values):
+            continue
+        lines = []
+        for label, paths in rows:
+            leaves = [leaf_at(type(response), path) for path in paths]
+            unit = next((leaf.unit for leaf in leaves if leaf and leaf.unit), "")
+            lines.append((label, [shown(values.get(path, given.get(path)), DIGITS + 1) for path in paths], unit))
+        tables.append(BesideTable(title, methods, lines, why))
+    return tables
+
+
 def words_of(response: Documented) -> Words:
     """Return what the model's card says of answers of this kind; empty for the answers of other endpoints."""
     return next((each.words for each in CALCULATIONS if each.response is type(response)), Words())

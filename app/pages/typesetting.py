@@ -8,8 +8,6 @@ from app.figures.wording import number, subscripts
 
 _LETTER = re.compile(r"[^\W\d_]{1,2}\*?")
 _SECOND_HAND = "as read in a public implementation"
-REPORT, STANDARD = "ISO/TR 13989-1", "ISO/TS 6336-20 (ISO/TR 13989-1)"
-"""The name of a withdrawn technical report in our sources, and the text that pages print for this name."""
 NO_VALUE = "–"
 _WORDS = {
     "allowable_misalignment": "permissible misalignment",
@@ -19,7 +17,7 @@ _WORDS = {
     "elastic_plastic": "elastic, then plastic",
     "hertzian": "Hertzian",
     "ishikawa": "Ishikawa",
-    "iso_tr_13989": STANDARD,
+    "iso_tr_13989": "ISO/TS 6336-20:2017",
     "newtonian": "Newtonian",
     "pao": "polyalphaolefin (PAO)",
     "pocket_chain": "chain of pockets",
@@ -60,7 +58,7 @@ def shown(value: object, digits: int = 5) -> str:
 
 def cited(text: str) -> str:
     """Return the text of a source or a reason as pages print it."""
-    return text.replace(_SECOND_HAND, "secondary source").replace(REPORT, STANDARD)
+    return text.replace(_SECOND_HAND, "secondary source")
 
 
 def words(name: str) -> str:

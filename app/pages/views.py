@@ -15,7 +15,7 @@ from app.pages.charts import figure_of, figures_of, linked, values_of
 from app.pages.form import FormState, form
 from app.pages.manual import chapter_of
 from app.pages.query import Pairs, excluded, link
-from app.pages.results import assumptions, cards, conclusion, differences, groups, resolved
+from app.pages.results import assumptions, beside, cards, conclusion, differences, groups, resolved
 from app.pages.study_links import studies_of_case, study_links
 from app.pages.templating import example_link, examples_of, page_path, rendered
 from app.pages.typed import as_typed, question
@@ -169,6 +169,7 @@ def _answered(
         "another": link(asked.path, asked.pairs, ref=asked.ref, also=with_this(asked), theme=asked.theme),
         "assumed": assumptions(request, response),
         "groups": groups(response, before),
+        "beside": beside(response) if response.status != "no_solution" else [],
         "derived": [row for rows in derived.values() for row in rows if row.value != NO_VALUE],
         "elsewhere": _elsewhere(asked),
         "compared": variant is not None,

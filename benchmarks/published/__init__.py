@@ -3,7 +3,7 @@
 Tests, manual and `benchmarks.papers` share them.
 """
 
-from benchmarks.published import coupling, micropitting, pumping, scuffing
+from benchmarks.published import coupling, micropitting, pumping, scuffing, standard
 from benchmarks.published.statement import Row, Statement
 
 STATEMENTS: dict[str, tuple[Statement, ...]] = {
@@ -11,6 +11,7 @@ STATEMENTS: dict[str, tuple[Statement, ...]] = {
     "pumping": pumping.STATEMENTS,
     "scuffing": scuffing.STATEMENTS,
     "micropitting": micropitting.STATEMENTS,
+    "standard": standard.STATEMENTS,
 }
 
 __all__ = ["STATEMENTS", "Row", "Statement"]

@@ -1,6 +1,7 @@
 """A published statement with a number, and the number that the solvers compute for comparison."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from math import inf
 from typing import Literal
 
@@ -70,6 +71,12 @@ class Says:
     ) -> Statement:
         """The source prints this number. `tolerance` is relative."""
         return self._near("printed", number, unit, compute, tolerance, remark)
+
+    def prints(self, digits: str, unit: str, compute: Callable[[], float]) -> Statement:
+        """The source prints these digits. The tolerance is one unit of the last one."""
+        step = 10.0 ** -len(digits.partition(".")[2])
+        statement = self._near("printed", float(digits), unit, compute, step / float(digits), "")
+        return replace(statement, expected=digits)
 
     def calculated(self, number: float, unit: str, compute: Callable[[], float], tolerance: float) -> Statement:
         """An independent calculation or a closed form gives this number, which no source prints."""

@@ -7,7 +7,7 @@ from solvers.heat_balance import Heat, cooling_in_force
 from solvers.heat_balance.results import CoolingInForce
 from solvers.lubricants import OilInUse, oil_in_use
 from solvers.quantity import quantity, record
-from solvers.scuffing.inputs import TR_13989
+from solvers.scuffing.inputs import TS_6336_20
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety_results import BulkInForce
 
@@ -75,7 +75,7 @@ class DerivedTemperatures:
     lubricant_factor: float | None = quantity(
         "lubricant factor of the scuffing test used",
         "X_L",
-        TR_13989,
+        TS_6336_20,
         text="null without a scuffing test",
         equation="R9",
     )

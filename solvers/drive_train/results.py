@@ -14,7 +14,7 @@ from solvers.heat_balance import FlowCurve
 from solvers.heat_balance.results import FaceHeat, Heat
 from solvers.notices import Notice
 from solvers.quantity import computed, described, quantity, record
-from solvers.scuffing.inputs import ISO_TR_15144, TR_13989
+from solvers.scuffing.inputs import ISO_TR_15144, TS_6336_20
 from solvers.scuffing.micropitting.results import Micropitting, Wear
 from solvers.scuffing.results import LoadDistribution, Place
 from solvers.sources import ISO_6336, REYNOLDS
@@ -259,8 +259,8 @@ class FlashPlaces:
     friction_coefficient: float | None = quantity(
         "mean coefficient of friction of the flash temperature",
         "μ_mB",
-        TR_13989,
-        text="given, or by the oil (ISO/TR 13989-1); null without both",
+        TS_6336_20,
+        text="given, or by the oil (ISO/TS 6336-20); null without both",
         equation="R5",
     )
 

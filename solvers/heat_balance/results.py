@@ -104,7 +104,7 @@ class Balance:
 class BulkEstimates:
     """Bulk temperatures [K] by formulas of standards, for comparison."""
 
-    iso_tr_13989_bulk: float | None = quantity("bulk by ISO/TR 13989-1", "θ_M", unit="c", default=None)
+    iso_tr_13989_bulk: float | None = quantity("bulk by ISO/TS 6336-20", "θ_M", unit="c", default=None)
     iso_ts_6336_22_bulk: float | None = quantity(
         "bulk by ISO/TS 6336-22", "θ_M", unit="c", default=None, equation="H13"
     )

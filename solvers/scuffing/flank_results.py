@@ -139,7 +139,7 @@ def feature_line(
 
 
 def _load_sharing(path: PathOfContact, load: FloatArray, tangential_force: float) -> FloatArray:
-    """Return X = w b / F_bt; this ratio can be compared with the load-sharing factor of ISO/TR 13989-1."""
+    """Return X = w b / F_bt; this ratio can be compared with the load-sharing factor of ISO/TS 6336-20."""
     return load * path.plane.face_width / tangential_force
 
 

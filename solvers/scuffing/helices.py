@@ -85,7 +85,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     -------
     Scuffing
         Load distribution, flash temperature, and curves along the checked lines. Film, contact temperature and safety
-        are None if the oil or the bulk temperature is unknown, safety also if the scuffing temperature is.
+        are None if the bulk temperature is unknown, the film also without an oil, safety also without a limit.
 
     Raises
     ------

@@ -16,11 +16,13 @@ from solvers.sources import ISO_6336, XUE
 
 FZG = "ISO 14635-1"
 ISO_TR_15144 = "ISO/TR 15144-1:2014, as read in a public implementation"
-TR_13989 = "ISO/TR 13989-1, as read in a public implementation"
+TS_6336_20 = "ISO/TS 6336-20:2017 (ISO/TR 13989-1), as read in a public implementation"
+TS_6336_21 = "ISO/TS 6336-21:2017 (ISO/TR 13989-2), as read in a public implementation"
 
 FrictionMethod = Literal["given", "iso_tr_13989"]
 BulkMethod = Literal["given", "estimated", "heat_balance"]
 OilSupply = Literal["spray", "dip", "submerged"]
+StandardEdition = Literal["2017", "2000"]
 
 ToothModel = Literal["ishikawa", "parabola"]
 ContactModel = Literal["hertzian", "linear"]
@@ -483,7 +485,7 @@ class ScuffingTest:
     structure_factor: float = quantity(
         "structural factor",
         "X_W",
-        TR_13989,
+        TS_6336_20,
         default=1.0,
         ge=0.1,
         le=2,
@@ -492,7 +494,7 @@ class ScuffingTest:
     lubricant_factor: float | None = quantity(
         "lubricant factor",
         "X_L",
-        TR_13989,
+        TS_6336_20,
         default=None,
         ge=0.1,
         le=2,
@@ -533,7 +535,7 @@ class Temperatures:
     bulk_method: BulkMethod | None = quantity(
         "bulk temperature method",
         None,
-        TR_13989,
+        TS_6336_20,
         default=None,
         text=(
             "given: the bulk temperature stated; estimated: from oil temperature, lubrication and "
@@ -551,7 +553,7 @@ class Temperatures:
     oil_supply: OilSupply = quantity(
         "lubrication system factor",
         "X_S",
-        TR_13989,
+        TS_6336_20,
         default="spray",
         assumed="spray lubrication; scales the estimated bulk temperature",
     )
@@ -626,8 +628,8 @@ class MicropittingCheck:
         le=10,
         text="load stage at which the oil fails the micropitting test",
         if_above=(
-            '"above 10" on a data sheet means that the oil passed the last stage; enter 10, which is on the safe side, '
-            "or the permissible specific film thickness instead"
+            '"above 10" on a data sheet means that the oil passed the last stage; enter 10 or ">10", which is on the '
+            "safe side, or the permissible specific film thickness instead"
         ),
         default_text="no safety factor, unless a permissible film thickness is given",
         assumed="no failure load stage and no permissible film thickness given: films without a safety factor",
@@ -680,19 +682,84 @@ class MicropittingCheck:
 
 
 @record
+class StandardFactors:
+    """What the checks by the standard take beside the pair; the local checks never use it.
+
+    A factor that is None follows from method B of ISO 6336-1 or from the load distribution.
+    """
+
+    face_load_factor: float | None = quantity(
+        "face load factor for the standard",
+        "K_Hβ",
+        ISO_6336,
+        default=None,
+        ge=1,
+        le=20,
+        tolerance=0.1,
+        text="for the checks by the standard alone",
+        default_text="that of the load distribution",
+    )
+    transverse_load_factor: float | None = quantity(
+        "transverse load factor for the standard",
+        "K_Hα",
+        ISO_6336,
+        default=None,
+        ge=1,
+        le=20,
+        tolerance=0.05,
+        text="for the checks by the standard alone",
+        default_text="by method B of ISO 6336-1",
+    )
+    dynamic_factor: float | None = quantity(
+        "dynamic factor for the standard",
+        "K_v",
+        ISO_6336,
+        default=None,
+        ge=1,
+        le=20,
+        tolerance=0.05,
+        text="for the checks by the standard alone",
+        default_text="that of the load if it is not 1, otherwise by method B of ISO 6336-1",
+    )
+    quality_grade: int = quantity(
+        "quality grade for the standard",
+        "A",
+        "ISO 1328-1:2013",
+        default=7,
+        ge=1,
+        le=11,
+        text="flank tolerance class: deviations in K_v and K_Hα, load sharing, tip relief factor",
+        assumed="class 7; a coarser gear has larger load factors",
+    )
+    running_in: float = quantity(
+        "state of running in",
+        "Φ_E",
+        TS_6336_21,
+        default=0.0,
+        ge=0,
+        le=1,
+        tolerance=0.5,
+        text="1: run in; 0: as manufactured; for the integral temperature method",
+        assumed="0, flanks as manufactured; run-in ones have a lower integral temperature",
+    )
+
+
+@record
 class ScuffingInputs:
     """Inputs of a scuffing check.
 
     If `oil` is given, a given `lubricant` is not used; the calculation computes `lubricant` from `oil` at the bulk
-    temperature. If neither `oil` nor `lubricant` is given, film, contact temperature and safety factor are not
-    computed.
+    temperature. If neither `oil` nor `lubricant` is given, the pair is dry or greased: no film, and contact temperature
+    and safety factor only from given temperatures and friction.
 
     If `friction` is "given", the coefficient of friction in `distribution` is used. If `friction` is "iso_tr_13989",
-    Blok's flash temperature uses the mean coefficient of ISO/TR 13989-1, and the losses use Schlenk's coefficient.
+    Blok's flash temperature uses the mean coefficient of ISO/TS 6336-20, and the losses use Schlenk's coefficient.
 
     If `lubrication` is "closed_form", only the formulas of Blok and of Dowson and Higginson are evaluated. If
     `lubrication` is "thermal_ehl", the thermal EHL contact under the local load is also solved, with the options in
     `film`.
+
+    `standard` and `standard_edition` belong to the checks by the standard, which stand beside the local ones.
 
     `line` is "flank" to check the whole flank, or "feature_line" to check only the paper's diagonal from A1 to E2.
     Every checked line has `path_points` equidistant points. `cooling` is only used if the bulk temperature follows from
@@ -706,9 +773,9 @@ class ScuffingInputs:
     friction: FrictionMethod = quantity(
         "friction law",
         None,
-        TR_13989,
+        TS_6336_20,
         default="iso_tr_13989",
-        text="given coefficient; or by the oil: ISO/TR 13989-1 for the flash temperature, Schlenk for the losses",
+        text="given coefficient; or by the oil: ISO/TS 6336-20 for the flash temperature, Schlenk for the losses",
     )
     lubrication: Lubrication = quantity(
         "lubrication model",
@@ -744,6 +811,18 @@ class ScuffingInputs:
         "cooling",
         default_factory=Cooling,
         text="for the heat balance: how the oil reaches the teeth, what else heats it, what was measured",
+    )
+
+    standard: StandardFactors = quantity(
+        "standard", default_factory=StandardFactors, text="load factors and flanks for the checks by the standard alone"
+    )
+    standard_edition: StandardEdition = quantity(
+        "edition of the standard",
+        None,
+        TS_6336_20,
+        default="2017",
+        text="2017: ISO/TS 6336-20 and -21, X_R = Ra^0.25; 2000: ISO/TR 13989 as programs print it, X_R = Ra^0.5",
+        advanced=True,
     )
 
     @property

@@ -1,7 +1,7 @@
 """Results for the mesh from the balanced load: load sharing, stiffness, transmission error, friction loss.
 
 Eq. 15 is an equation of the paper. The formulas for the load sharing X_Gamma and the buttressing factor X_but are
-general knowledge about ISO/TR 13989-1. They were not compared with the text of this standard.
+general knowledge about ISO/TS 6336-20. They were not compared with the text of this standard.
 """
 
 from dataclasses import dataclass
@@ -23,32 +23,39 @@ STEEL = 206e9  # Pa, modulus for which ISO 6336-1 states c'
 DISC_FACTOR = 1.0  # C_R of solid discs
 MEASURED_FRACTION = 0.8  # C_M: ratio of measured to theoretical stiffness
 HARMONICS = 5  # number of harmonics, chosen
+BEST_GRADE = 7  # finer quality grades have the load sharing of this grade
 
 
-def iso_load_sharing(path: PathOfContact, x: FloatArray) -> FloatArray | None:
-    """Load sharing X_Gamma X_but of ISO/TR 13989-1 at x [m] from A; None where it has no diagram.
+def iso_load_sharing(path: PathOfContact, x: FloatArray, quality_grade: int = BEST_GRADE) -> FloatArray | None:
+    """Load sharing X_Gamma X_but of ISO/TS 6336-20 at x [m] from A; None where it has no diagram.
 
-    eps_gamma below 2: spur gears of quality 7 or better; else 1/eps_alpha. No diagram for eps_alpha < 1, or spur gears
-    >= 2.
+    eps_gamma below 2: as spur gears of the grade (finer ones as 7); else 1/eps_alpha. No diagram for eps_alpha < 1, or
+    spur gears >= 2.
     """
     ratio = path.transverse_contact_ratio
     if ratio < 1.0 or (path.overlap_ratio == 0.0 and ratio >= 2.0):
         return None
     if path.total_contact_ratio < 2.0:
-        shared = _narrow(x, path.length, path.length - path.plane.base_pitch)
+        shared = spur_load_sharing(path, x, quality_grade)
     else:
         shared = np.full_like(x, 1.0 / ratio)
-    return shared * _buttressing(path, x)
+    return shared * buttressing(path, x, path.overlap_ratio)
 
 
-def _narrow(x: FloatArray, length: float, double: float) -> FloatArray:
-    """Load sharing of narrow gears: 1/3 at A, 2/3 at B, 1 between B and D, mirrored to E; `double` [m] is AB."""
-    from_end = np.minimum(x, length - x)
-    with_mate = 1 / 3 + from_end / (3 * double) if double > 0.0 else np.ones_like(x)
-    return np.where(from_end < double, with_mate, 1.0)
+def spur_load_sharing(path: PathOfContact, x: FloatArray, quality_grade: int) -> FloatArray:
+    """Load sharing of unmodified spur gears at x [m] from A (Eq. M12).
+
+    (Q - 2)/15 at A, 1/3 more at B, 1 between B and D, mirrored to E. Formulas 46 to 48 of ISO/TR 15144-1.
+    """
+    inner, outer = path.length - path.plane.base_pitch, path.plane.base_pitch
+    outside = np.maximum(inner - x, x - outer)  # distance outside the stretch with one pair in contact; negative inside
+    if inner <= 0.0:
+        return np.ones(np.shape(x))
+    base = (max(quality_grade, BEST_GRADE) - 2) / 15
+    return np.where(outside > 0.0, base + (inner - outside) / (3 * inner), 1.0)
 
 
-def _buttressing(path: PathOfContact, x: FloatArray) -> FloatArray:
+def buttressing(path: PathOfContact, x: FloatArray, overlap_ratio: float) -> FloatArray:
     """Buttressing factor of helical teeth: 1 + 0.3 min(eps_beta, 1) at A and E, linear to 1 (Eq. 15).
 
     It reaches 1 where Gamma differs by 0.2 sin beta_b.
@@ -58,7 +65,7 @@ def _buttressing(path: PathOfContact, x: FloatArray) -> FloatArray:
     if ramp == 0.0:
         return np.ones_like(x)
     from_end = np.minimum(x, path.length - x)
-    return 1.0 + 0.3 * min(path.overlap_ratio, 1.0) * np.maximum(1.0 - from_end / ramp, 0.0)
+    return 1.0 + 0.3 * min(overlap_ratio, 1.0) * np.maximum(1.0 - from_end / ramp, 0.0)
 
 
 @dataclass(frozen=True, slots=True)

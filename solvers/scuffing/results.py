@@ -298,7 +298,7 @@ class ContactPoints:
 class FeatureLine:
     """Points along the feature line.
 
-    `load_sharing` is None without load. `iso_load_sharing` is None if ISO/TR 13989-1 has no diagram for the pair. The
+    `load_sharing` is None without load. `iso_load_sharing` is None if ISO/TS 6336-20 has no diagram for the pair. The
     pressure is NaN at points where the reduced radius vanishes.
     """
 
@@ -336,9 +336,9 @@ class FeatureLine:
         "load sharing", "X_Γ", f"{XUE}, Fig. 19", text="w b / F_bt; null without load", axis="psi"
     )
     iso_load_sharing: FloatArray | None = quantity(
-        "load sharing by ISO/TR 13989-1",
+        "load sharing by ISO/TS 6336-20",
         "X_Γ,ISO",
-        "ISO/TR 13989-1, quoted, not verified against the standard",
+        "ISO/TS 6336-20, quoted, not verified against the standard",
         text="the standard's diagram; null where it has none",
         axis="psi",
     )

@@ -18,7 +18,7 @@ from solvers.heat_balance import Heat, cooling_in_force
 from solvers.lubricants import OilInUse, oil_in_use
 from solvers.oils import OilSheet
 from solvers.scuffing.contact_slices import Peak, reaches_base_circle
-from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, Temperatures
+from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, ScuffingTest, Temperatures
 from solvers.scuffing.micropitting.check import CheckedFlank, check_micropitting
 from solvers.scuffing.micropitting.wear import wear_asked_for
 from solvers.scuffing.model import solve
@@ -34,6 +34,7 @@ from solvers.scuffing.safety_results import (
     ScuffingPath,
     ThermalPath,
 )
+from solvers.scuffing.standard.check import check_by_standard, standard_notices
 from solvers.scuffing.thermal.blok import blok_flash
 from solvers.scuffing.thermal.bulk import BulkRule
 from solvers.scuffing.thermal.flank import (
@@ -47,7 +48,7 @@ from solvers.scuffing.thermal.flank import (
 from solvers.scuffing.thermal.misalignment import misalignment_left_out
 from solvers.scuffing.thermal.places import Places, solve_places
 from solvers.scuffing.thermal.practice import scuffing_risk
-from solvers.scuffing.thermal.temperatures import in_force, oil_notices
+from solvers.scuffing.thermal.temperatures import oil_notices, pair_in_force
 from solvers.scuffing.thermal.thermal_path import SolvedLine, solve_line, solver_notices
 from solvers.scuffing.thermal.verdict import (
     CheckedLine,
@@ -67,7 +68,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     """Compute the load distribution of a pair, of two helices that of one, and check it against scuffing (Eq. 16).
 
     Raises InvalidInput `exclusive` if a bulk temperature is given although `bulk_method` is "estimated"; the errors of
-    `model.solve` and of `in_force`; the error of the thermal EHL solver if this solver refuses every point.
+    `model.solve` and of `pair_in_force`; the error of the thermal EHL solver if this solver refuses every point.
     """
     if inputs.temperatures.bulk_method == "estimated" and inputs.temperatures.bulk is not None:
         message = (
@@ -76,7 +77,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         )
         raise InvalidInput("exclusive", message, "temperatures.bulk_method")
     asked = inputs
-    inputs, distribution, flash_map, heat, rule, ran = in_force(inputs, solve(inputs.distribution))
+    inputs, distribution, flash_map, heat, rule, ran = pair_in_force(inputs, solve(inputs.distribution))
     given, bulk = inputs.distribution, inputs.temperatures.bulk
     whole = inputs.line == "flank"
     hottest = find_hottest(given, distribution, flash_map) if whole else None
@@ -85,7 +86,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     warnings = (*distribution.warnings, *oil_notices(inputs, distribution.path_of_contact, ran))
     places: Places | None = None
     solved: list[SolvedLine] = []
-    thermal = inputs.lubrication == "thermal_ehl" and bulk is not None
+    thermal = inputs.lubrication == "thermal_ehl" and inputs.lubricant is not None
     if thermal and thinnest is not None:
         surfaces = partial(_surfaces, inputs.temperatures)
         places = solve_places(inputs, distribution, flash_map, film_at, (hottest, thinnest), surfaces)
@@ -116,14 +117,14 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     micropitting = check_micropitting(inputs, distribution, flash_map, film.thermal_ehl_min)
     paths = [_with_film_ratio(micropitting, *both) for both in zip(paths, lines, strict=True)]
     contact = None if bulk is None else _contact_temperature(inputs.temperatures, bulk, flash, deciding)
-    safety = None if contact is None else _safety(inputs.temperatures, contact, flash)
+    safety = _safety(inputs, distribution, asked.temperatures.scuffing_test, contact, flash)
     if heat is not None:
         heat, safety = _with_band(inputs.temperatures, rule, heat, flash, safety)
     return Scuffing(
         distribution=distribution,
         flash=flash,
         contact_temperature=contact,
-        film=None if bulk is None else film,
+        film=None if inputs.lubricant is None else film,
         safety=safety,
         path=paths[0],
         hottest_path=paths[1] if len(paths) > 1 else None,
@@ -137,6 +138,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         + misalignment_left_out(asked, distribution, safety)
         + (() if heat is None else heat.warnings)
         + micropitting.warnings
+        + tuple(standard_notices(given, None if safety is None else safety.standard))
         + path_notices(distribution, paths[0], status, contact, safety, unknown),
         unsolved_points=status.count("no_solution") + status.count("refused"),
     )
@@ -266,14 +268,21 @@ def safety_factor(scuffing: float, oil: float, contact: float) -> float | None:
     return (scuffing - oil) / (contact - oil) if contact > oil else None
 
 
-def _safety(temperatures: Temperatures, contact: ContactTemperature, flash: Flash) -> Safety | None:
-    """Return the safety factors by Blok and by thermal EHL, or None if the scuffing temperature is unknown.
+def _safety(
+    inputs: ScuffingInputs,
+    distribution: LoadDistribution,
+    test: ScuffingTest | None,
+    contact: ContactTemperature | None,
+    flash: Flash,
+) -> Safety | None:
+    """Return the safety factors by Blok, by thermal EHL and by the standard; None without a temperature to compare.
 
-    The factor by Blok is computed twice: for the whole flank, and for the feature line alone.
+    The factor by Blok is computed twice: for the whole flank, and for the feature line alone. `test` is the scuffing
+    test as asked: the standard has its own X_L.
     """
-    if temperatures.scuffing is None:
+    limit, oil = inputs.temperatures.scuffing, inputs.temperatures.oil
+    if limit is None or contact is None:
         return None
-    limit, oil = temperatures.scuffing, temperatures.oil
     on_line = None if flash.feature_line_max is None else contact.bulk + flash.feature_line_max
     blok, feature, thermal = (
         None if hottest is None else safety_factor(limit, oil, hottest)
@@ -285,6 +294,7 @@ def _safety(temperatures: Temperatures, contact: ContactTemperature, flash: Flas
         feature_line_factor=feature,
         thermal_ehl_factor=thermal,
         verdict=None if blok is None else scuffing_risk(blok),
+        standard=check_by_standard(inputs, distribution, test),
     )
 
 

@@ -10,9 +10,10 @@ from solvers.heat_balance.results import CoolingInForce, Heat
 from solvers.lubricants import OilInUse
 from solvers.notices import Notice
 from solvers.quantity import computed, described, quantity, record
-from solvers.scuffing.inputs import ISO_TR_15144, TR_13989
+from solvers.scuffing.inputs import ISO_TR_15144, TS_6336_20
 from solvers.scuffing.micropitting.results import Micropitting, Wear
 from solvers.scuffing.results import Derived, Flank, LoadDistribution
+from solvers.scuffing.standard.results import ScuffingStandard
 from solvers.scuffing.thermal.practice import ScuffingRisk
 from solvers.sources import OWN, XUE
 
@@ -94,8 +95,8 @@ class Flash:
     friction_coefficient: float | None = quantity(
         "mean coefficient of friction of the flash temperature",
         "μ_mB",
-        TR_13989,
-        text="for Blok's formula: given, or by the oil (ISO/TR 13989-1); null without both",
+        TS_6336_20,
+        text="for Blok's formula: given, or by the oil (ISO/TS 6336-20); null without both",
         default=None,
         equation="R5",
     )
@@ -112,7 +113,7 @@ class BulkInForce:
     bulk_estimate: float | None = quantity(
         "estimated bulk temperature",
         "θ_M,est",
-        TR_13989,
+        TS_6336_20,
         unit="c",
         text="null if the bulk temperature is given, without an oil, or without a mean flash temperature",
         equation="R8",
@@ -229,7 +230,7 @@ class Film:
 class Safety:
     """Safety factors against scuffing (Eq. 26); a factor is None if the teeth are not hotter than the oil.
 
-    `scuffing` is the scuffing temperature [K]. `verdict` is the risk class by ISO/TR 13989-1 for Blok's factor. If the
+    `scuffing` is the scuffing temperature [K]. `verdict` is the risk class by ISO/TS 6336-20 for Blok's factor. If the
     heat balance states a band of this factor, `verdict` is the risk class for the smallest factor in the band.
     """
 
@@ -258,11 +259,16 @@ class Safety:
     verdict: ScuffingRisk | None = quantity(
         "risk of scuffing",
         None,
-        "ISO/TR 13989-1, quoted, not verified against the standard",
+        "ISO/TS 6336-20, quoted, not verified against the standard",
         text=(
             "safety below 1: high; 1 to 2: moderate; above 2: low; at the lower end of the band if there "
             "is one; null without a safety factor"
         ),
+        default=None,
+    )
+    standard: ScuffingStandard | None = quantity(
+        "scuffing by the standard",
+        text="flash and integral temperature method with their own load and temperatures, beside the local check",
         default=None,
     )
 
@@ -286,7 +292,7 @@ class ScuffingDerived:
     lubricant_factor: float | None = quantity(
         "lubricant factor of the scuffing test used",
         "X_L",
-        TR_13989,
+        TS_6336_20,
         text="null without a scuffing test",
         equation="R9",
     )
@@ -413,17 +419,20 @@ class HeatedFlank(Flank):
 class Scuffing:
     """Results of a scuffing check, with the load distribution on which the check is based.
 
-    `safety` is None without a scuffing temperature. Contact temperature, film and safety are None without an oil.
+    `safety` is None without a scuffing temperature, contact temperature and safety without a bulk temperature, the film
+    without an oil.
     `warnings` are the warnings of the load distribution and of the check.
     """
 
     distribution: LoadDistribution
     flash: Flash = quantity("flash temperature")
     contact_temperature: ContactTemperature | None = quantity(
-        "contact temperature", text="null without an oil or a bulk temperature"
+        "contact temperature", text="null without a bulk temperature, which without an oil must be given"
     )
     film: Film | None = quantity("film", text="film thickness; null without an oil or a bulk temperature")
-    safety: Safety | None = quantity("safety", text="safety factors; null without a scuffing temperature or an oil")
+    safety: Safety | None = quantity(
+        "safety", text="safety factors; null without a scuffing temperature or a contact temperature"
+    )
     path: ScuffingPath = quantity("scuffing check along the feature line", detail="curves")
     hottest_path: ScuffingPath | None = quantity(
         "scuffing check along the hottest profile",

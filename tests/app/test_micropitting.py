@@ -42,7 +42,7 @@ def fields(found: dict[str, Any]) -> set[str]:
     [
         (4, "failure_load_stage is 4; permissible: 5 to 10"),
         (11, 'failure_load_stage is 11; permissible: 5 to 10; "above 10" on a data sheet means that the oil passed'),
-        (">10", 'give a number, not text; "above 10" on a data sheet means that the oil passed'),
+        ("> 10", 'give a number, not text; "above 10" on a data sheet means that the oil passed'),
         (7.5, "give a whole number"),
         ("8", "give a number, not text: 8 instead of"),
     ],
@@ -51,6 +51,15 @@ def test_stages_that_the_test_does_not_have_are_refused(stage: object, message: 
     (found,) = refusals({"micropitting.failure_load_stage": stage}).items()
     assert found[0] == "/micropitting/failure_load_stage"
     assert found[1].startswith(message.partition(" instead")[0])
+
+
+def test_a_stage_above_the_last_one_counts_as_the_last_and_says_so() -> None:
+    """FVA 54/7 prints ">10" for an oil that passed stage 10."""
+    passed, ten = (asked(STARTER, {"micropitting.failure_load_stage": stage}) for stage in (">10", 10))
+    assert passed["micropitting"] == ten["micropitting"]
+    assert passed["inputs"]["micropitting"]["failure_load_stage"] == 10
+    (reason,) = (each["reason"] for each in passed["assumptions"] if each["field"] == "micropitting.failure_load_stage")
+    assert '">10" is taken as 10' in reason.replace('(">10")', '">10"')
 
 
 def test_a_stage_and_a_ratio_exclude_each_other() -> None:
@@ -151,7 +160,7 @@ def test_one_figure_says_where_it_starts_and_what_the_modifications_do() -> None
     described, plain = figure.panels
     assert described.marks[0].x == pytest.approx(local["at_face_mm"])
     assert described.marks[0].y == pytest.approx(local["at_psi"])
-    assert "S_λ = 1.22: limited margin" in figure.finding
+    assert "S_λ = 1.47: limited margin" in figure.finding
     assert "without modifications and misalignment" in figure.finding
     assert plain.marks[0].y == pytest.approx(0.0, abs=1e-6)
     assert len(drawn(SCUFFING, "micropitting", SPUR).panels) == 1

@@ -599,6 +599,7 @@ NOT_IN_FILES = {
     "temperatures.bulk_method": "follows from the bulk temperature",
     "temperatures.local_bulk": "a choice of the calculation",
     "temperatures.scuffing_test.*": "files give the temperature itself",
+    "standard.*": "the dynamic factor of a file belongs to the load; other factors in files are results of programs",
     "thermal.wall_response*": "unknown to the standard",
     "thermal.bulk_includes_pumping": "unknown to the standard",
     "lubricant.pressure_viscosity_38_per_gpa": "the coefficient at the bulk temperature is given",

@@ -110,7 +110,7 @@ def temperatures(heat: Heat, oil: float) -> Figure:
     levels = [Level(oil, f"oil {number(oil, '°C')}", vertical=True)]
     estimate = heat.estimates.iso_tr_13989_bulk
     if estimate is not None:
-        levels.append(Level(estimate, f"bulk by ISO/TR 13989-1 {number(estimate, '°C')}", vertical=True))
+        levels.append(Level(estimate, f"bulk by ISO/TS 6336-20 {number(estimate, '°C')}", vertical=True))
     finding = f"flanks {number(heat.pinion.flank, '°C')} and {number(heat.wheel.flank, '°C')}"
     if band is not None:
         low, high = band.pinion_flank
@@ -238,7 +238,7 @@ def safety_over_the_band(inputs: ScuffingInputs, result: Scuffing) -> Figure:
         "hot end of the band": heat.band.bulk[1],
     }
     estimate = heat.estimates.iso_tr_13989_bulk
-    points = bulks | ({} if estimate is None else {"ISO/TR 13989-1": estimate})
+    points = bulks | ({} if estimate is None else {"ISO/TS 6336-20": estimate})
     ends = sorted(points.values())
     bulk = np.linspace(ends[0] - 2.0, ends[-1] + 2.0, 101)
     line = Line("safety", bulk, _factors(safety.scuffing, oil, bulk + largest), named=False)
@@ -246,7 +246,7 @@ def safety_over_the_band(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     for name, at in points.items():
         factor = safety_factor(safety.scuffing, oil, at + largest)
         if factor is not None:
-            hue = Hue.GREY if name == "ISO/TR 13989-1" else line.hue
+            hue = Hue.GREY if name == "ISO/TS 6336-20" else line.hue
             marks.append(Mark(at, factor, f"{name}: {number(factor)} at {number(at, '°C')}", hue))
     low, high = heat.band.safety
     finding = f"safety factor {number(safety.blok_factor)} ({number(low)} to {number(high)})"

@@ -82,6 +82,14 @@ class Micropitting(Section, of=si.MicropittingCheck):
 
     exclusive: ClassVar = (("failure_load_stage", "permissible_ratio"),)
 
+    @model_validator(mode="before")
+    @classmethod
+    def passed_the_last_stage(cls, sent: Any) -> Any:
+        """Take ">10", as FVA 54/7 prints it, for the last stage."""
+        if isinstance(sent, dict) and sent.get("failure_load_stage") == f">{LAST_STAGE}":
+            return sent | {"failure_load_stage": LAST_STAGE}
+        return sent
+
     def unused(self) -> dict[str, bool]:
         given = self.permissible_ratio is not None
         return dict.fromkeys(("failure_load_stage", "material_factor"), given) | {
@@ -89,12 +97,24 @@ class Micropitting(Section, of=si.MicropittingCheck):
         }
 
 
-class MeshModel(LoadDistributionModel, FilmModel, of=si.ScuffingInputs, without=("line", "micropitting", "cooling")):
+class StandardLoad(Section, of=si.StandardFactors):
+    """Load factors and flanks for the checks by the standard; they never load the local checks."""
+
+
+OF_A_PAIR = ("line", "standard_edition")
+
+
+class MeshModel(
+    LoadDistributionModel,
+    FilmModel,
+    of=si.ScuffingInputs,
+    without=(*OF_A_PAIR, "micropitting", "cooling", "standard"),
+):
     """Model options of the load distribution and of the film."""
 
 
-class ScuffingModel(MeshModel, of=si.ScuffingInputs, only=("line",)):
-    """Model options of the load distribution and of the film, and the part of the flank that is checked."""
+class ScuffingModel(MeshModel, of=si.ScuffingInputs, only=OF_A_PAIR):
+    """Model options of load distribution and film, the part of the flank to check, and the edition of the standard."""
 
 
 PRACTICAL_FRICTION = Input.of(
@@ -104,10 +124,10 @@ PRACTICAL_FRICTION = Input.of(
     default_text="by the friction law, from the oil",
 )
 LAW = (
-    "for scuffing, the mean coefficient of ISO/TR 13989-1 is used, with the computed K_Hβ and with K_Hα = 1; for the "
+    "for scuffing, the mean coefficient of ISO/TS 6336-20 is used, with the computed K_Hβ and with K_Hα = 1; for the "
     "losses, Schlenk's coefficient is used, without load factors"
 )
-NOT_USED = "not used, because `model.friction` selects the coefficient of ISO/TR 13989-1"
+NOT_USED = "not used, because `model.friction` selects the coefficient of ISO/TS 6336-20"
 OF_A_TEST = {
     "temperatures.scuffing_test.fzg_stage": "fzg_stage",
     "micropitting.failure_load_stage": "micropitting_stage",
@@ -129,6 +149,10 @@ SMOOTH_FILM = (
     "thermal EHL may therefore rise by some percent with the oil temperature, although the film becomes thinner and "
     "the safety by Blok falls"
 )
+
+
+LAST_STAGE = 10
+PASSED = '10 is the last stage of the test; an oil that passed it (">10") is taken as 10, which is on the safe side'
 
 
 class MeshInOil(Request):
@@ -225,9 +249,9 @@ class MeshInOil(Request):
 
     @property
     def _standard_film_asked(self) -> bool:
-        """Whether the film of the standard is computed. This film is only valid for spur gears without relief."""
+        """Whether the film of the standard is computed. This film is only valid for gears without relief."""
         relief = self.modifications.tip_relief_um or self.modifications.root_relief_um
-        return self.micropitting is not None and not relief and self.gears.helix_angle_deg == 0.0
+        return self.lubricant.known and self.micropitting is not None and not relief
 
     def unused(self) -> dict[str, bool]:
         dry, standard = not self.lubricant.known, self._standard_film_asked
@@ -265,6 +289,8 @@ class MeshInOil(Request):
             reasons["temperatures.bulk_method"] = GIVEN_BULK
         if self.model.lubrication == "thermal_ehl":
             reasons["model.lubrication"] = SMOOTH_FILM
+        if self.micropitting is not None and self.micropitting.failure_load_stage == LAST_STAGE:
+            reasons["micropitting.failure_load_stage"] = PASSED
         return reasons
 
 
@@ -278,6 +304,7 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
     )
     cooling: Annotated[GearCooling, Input.of(si.ScuffingInputs, "cooling")] = GearCooling()
     micropitting: Annotated[Micropitting | None, Input.of(si.ScuffingInputs, "micropitting")] = None
+    standard: Annotated[StandardLoad, Input.of(si.ScuffingInputs, "standard")] = StandardLoad()
     model: Annotated[
         ScuffingModel, Input("model", text="options where the paper leaves the model open", advanced=True)
     ] = ScuffingModel()
@@ -302,7 +329,26 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
         along_the_face = ("cooling.jet_distribution", "cooling.measured.face")
         of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg", *along_the_face)
         single = {"load.axial_force_n": self.gears.gap_width_mm is None}
-        return super().unused() | dict.fromkeys(of_a_unit, True) | single
+        scuffing, dry = self._scuffing_asked, not self.lubricant.known
+        test = self.temperatures.scuffing_test
+        of_oil = {
+            "temperatures": dry and self.temperatures.bulk_c is None,
+            "temperatures.oil_supply": dry
+            or (self.bulk_method == "given" and not (scuffing or self._standard_film_asked)),
+            "temperatures.scuffing_test": dry and test is not None and test.lubricant_factor is None,
+        }
+        standard = {
+            "standard": not (scuffing or self._standard_film_asked),
+            "standard.running_in": not scuffing,
+            "model.standard_edition": not scuffing,
+        }
+        return super().unused() | dict.fromkeys(of_a_unit, True) | single | of_oil | standard
+
+    @property
+    def _scuffing_asked(self) -> bool:
+        """Whether the pair is checked against scuffing, locally and by the standard."""
+        limit = self.temperatures.scuffing_c is not None or self.temperatures.scuffing_test is not None
+        return bool(self.lubricant.known) and limit
 
     def inputs(self) -> si.ScuffingInputs:
         return self.scuffing_inputs(*self.running())

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from app.models.card import FileResult, FromFile, ScuffingPaths, Words
+from app.models.card import Beside, FileResult, FromFile, ScuffingPaths, Words
 from app.models.load_distribution.words import (
     LOAD_DISTRIBUTION,
     MESH,
@@ -18,9 +18,11 @@ from solvers.heat_balance.notices import KNOWN_WITHIN
 from solvers.lubricants import OilInUse
 from solvers.scuffing import safety_results as results
 from solvers.scuffing.micropitting import results as film_results
+from solvers.scuffing.standard import results as standard_results
+from solvers.scuffing.standard.load_factors import LoadFactors
 
 OPTIONAL_CHAPTERS = {"micropitting": "micropitting", "heat": "heat-balance"}
-FILM_SAFETY = View(limit=1.0, bound="lower")
+ABOVE_ONE = View(limit=1.0, bound="lower")
 
 named(
     MicropittingTestFilm=film_results.FilmOfTest,
@@ -34,14 +36,18 @@ named(
     BandOfHeat=heat.HeatBand,
     HeatBalanceResult=heat.Heat,
     FlashTemperature=results.Flash,
+    StandardLoadFactors=LoadFactors,
+    StandardFlashPoint=standard_results.FlashPoint,
 )
-component(film_results.LocalPoint, "LocalFilmPoint", safety=FILM_SAFETY)
+component(film_results.LocalPoint, "LocalFilmPoint", safety=ABOVE_ONE)
 component(
     film_results.LocalFilm,
     safety=View(limit=1.0, bound="lower", needs="micropitting.failure_load_stage", verdict=".verdict"),
 )
-component(film_results.StandardPoint, "StandardFilmPoint", safety=FILM_SAFETY)
-component(film_results.StandardFilm, safety=FILM_SAFETY)
+component(film_results.StandardPoint, "StandardFilmPoint", safety=ABOVE_ONE)
+component(film_results.StandardFilm, safety=ABOVE_ONE)
+component(standard_results.FlashMethod, safety=ABOVE_ONE)
+component(standard_results.IntegralMethod, safety=ABOVE_ONE, load_safety=ABOVE_ONE)
 component(
     results.ContactTemperature,
     "ContactTemperatureResult",
@@ -121,6 +127,53 @@ These results need the failure load stage of a micropitting test. REXS has no at
 enters the load stage on the page of the calculation.
 """
 
+_FLASH, _INTEGRAL = "safety.standard.flash", "safety.standard.integral"
+SCUFFING_BESIDE = Beside(
+    "Scuffing: local and by the standard",
+    ("local", "ISO/TS 6336-20, flash", "ISO/TS 6336-21, integral"),
+    (
+        ("face load factor", ("load.face_load_factor", *["safety.standard.factors.face_load_factor"] * 2)),
+        ("dynamic factor", ("inputs.load.dynamic_factor", *["safety.standard.factors.dynamic_factor"] * 2)),
+        (
+            "coefficient of friction",
+            ("flash.friction_coefficient", f"{_FLASH}.friction_coefficient", f"{_INTEGRAL}.friction_coefficient"),
+        ),
+        ("bulk temperature", ("contact_temperature.bulk_c", f"{_FLASH}.bulk_c", f"{_INTEGRAL}.bulk_c")),
+        ("largest flash temperature", ("flash.blok_max_k", f"{_FLASH}.max_flash_k", "")),
+        ("mean flash temperature", ("", f"{_FLASH}.mean_flash_k", f"{_INTEGRAL}.mean_flash_k")),
+        (
+            "contact or integral temperature",
+            ("contact_temperature.blok_max_c", f"{_FLASH}.contact_c", f"{_INTEGRAL}.integral_c"),
+        ),
+        ("scuffing temperature", ("safety.scuffing_c", f"{_FLASH}.scuffing_c", f"{_INTEGRAL}.scuffing_c")),
+        ("safety factor", ("safety.blok_factor", f"{_FLASH}.safety", f"{_INTEGRAL}.safety")),
+    ),
+    "They differ because the local check takes the computed load of every place with its modifications, the bulk "
+    "temperature in force and X_L of the test at 90 °C, while the standard has one load for the whole face, raised by "
+    "K_v, K_Hα and K_Hβ, a load sharing that knows no relief, flooded flanks and X_L at the oil temperature; the "
+    "integral method compares means.",
+    "safety.standard",
+)
+MICROPITTING_BESIDE = Beside(
+    "Micropitting: local and by the standard",
+    ("local, method A", "ISO/TR 15144-1, method B"),
+    (
+        ("face load factor", ("load.face_load_factor", "micropitting.standard.factors.face_load_factor")),
+        ("dynamic factor", ("inputs.load.dynamic_factor", "micropitting.standard.factors.dynamic_factor")),
+        (
+            "coefficient of friction",
+            ("micropitting.local.friction_coefficient", "micropitting.standard.friction_coefficient"),
+        ),
+        ("bulk temperature", ("contact_temperature.bulk_c", "micropitting.standard.bulk_c")),
+        ("least specific film thickness", ("micropitting.local.least_ratio", "micropitting.standard.least_ratio")),
+        ("safety factor", ("micropitting.local.safety", "micropitting.standard.safety")),
+    ),
+    "They differ because method A takes the computed load of every place and the bulk temperature in force, while "
+    "method B has seven points of a load that is even over the face, raised by K_v, K_Hα and K_Hβ, and its own bulk "
+    "temperature.",
+    "micropitting.standard",
+)
+
 WORDS = Words(
     remarks=remarks,
     belongs=belongs,
@@ -128,6 +181,7 @@ WORDS = Words(
     losses=("friction_loss.power_w",),
     scuffing=ScuffingPaths("contact_temperature.blok_max_c", "safety.scuffing_c"),
     of_the_film=frozenset({"film.min_at_psi", "film.thickness_ratio", "unsolved_points"}),
+    beside=(SCUFFING_BESIDE, MICROPITTING_BESIDE),
     from_file=FromFile(
         MESH | {"temperatures", "lubricant"},
         unknown=NOT_OF_A_MESH,

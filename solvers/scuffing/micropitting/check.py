@@ -22,6 +22,7 @@ from solvers.scuffing.micropitting.results import (
 )
 from solvers.scuffing.micropitting.standard import characteristic_points, has_standard_film, solve_standard
 from solvers.scuffing.results import LoadDistribution
+from solvers.scuffing.standard.check import factors_of
 from solvers.scuffing.thermal.flank import FaceFunction, FlashMap
 
 LIKELY_BELOW, UNLIKELY_ABOVE = 1.0, 2.0  # limits of the safety factor, from common practice
@@ -100,12 +101,12 @@ def _local(
 def _local_points(
     distribution: LoadDistribution, film: FlankFilm | None, permissible: float | None
 ) -> list[LocalPoint]:
-    """Return the film at those characteristic points (A, B, C and so on) that lie on the path of contact.
+    """Return the film at the characteristic points A, B, C and so on of the feature line.
 
     The load of a spur pair jumps at B and D. Both belong to single contact there, as in method B.
     """
     path = distribution.path_of_contact
-    places = {name: x / path.length for name, x in characteristic_points(path).items() if 0.0 <= x <= path.length}
+    places = {name: x / path.length for name, x in characteristic_points(path).items()}
     psi = np.array([*places.values()])
     ratio = np.full(psi.size, np.nan)
     if film is not None:
@@ -127,7 +128,9 @@ def _standard(
     if oil is None or not moving or not has_standard_film(given, path):
         return None
     temperatures = inputs.temperatures
-    standard = solve_standard(given, path, oil, temperatures.oil, temperatures.oil_supply, check.quality_grade)
+    factors, load = factors_of(inputs, distribution), given.load
+    torque = load.helix_torque * load.application_factor * load.mesh_load_factor * factors.product
+    standard = solve_standard(given, path, oil, temperatures.oil, temperatures.oil_supply, check.quality_grade, torque)
     values = zip(standard.force_ratio, standard.contacts.pressure, *standard.films, strict=True)
     points = tuple(
         StandardPoint(
@@ -137,7 +140,7 @@ def _standard(
     )
     least = min(point.ratio for point in points)
     return StandardFilm(
-        standard.friction, standard.bulk, standard.loss_factor, least, _safety(least, permissible), points
+        standard.friction, standard.bulk, standard.loss_factor, least, _safety(least, permissible), points, factors
     )
 
 

@@ -74,8 +74,8 @@ def flank_film(
         return None
     friction = given.friction_coefficient
     if inputs.friction != "given" or friction is None:
-        face_load_factor = distribution.load.face_load_factor or 1.0
-        friction = mean_friction(given, distribution.path_of_contact, oil, temperatures.oil, face_load_factor)
+        torque = (distribution.load.face_load_factor or 1.0) * given.load.contact_torque
+        friction = mean_friction(given, distribution.path_of_contact, oil, temperatures.oil, torque)
     conditions = Conditions(oil, temperatures.bulk, friction, given.pinion_material, given.wheel_material)
     return FlankFilm(inputs, distribution, conditions, bulk)
 

@@ -29,16 +29,16 @@ def mean_friction(
     path: PathOfContact,
     oil: OilSheet | Lubricant,
     oil_temperature: float,
-    face_load_factor: float,
+    torque: float,
 ) -> float:
-    """Compute the mean coefficient of friction of a mesh [-].
+    """Compute the mean coefficient of friction of a mesh [-]. Eq. M9 of the chapter on micropitting.
 
-    Eq. M9 of the chapter on micropitting. The transverse load factor K_Halpha is set to 1.
+    `torque` [N m] is the pinion torque times all load factors.
     """
     at_pitch = path.pitch_point - path.start
     radius = reduced_radius(path.plane, at_pitch) / MM
     speed = sum(path.surface_speeds(at_pitch, given.load.pinion_speed))
-    force = face_load_factor * given.load.contact_torque / path.pair.pinion.base_radius  # F_bt times the load factors
+    force = torque / path.pair.pinion.base_radius  # F_bt times the load factors
     line_load = force * helical_load_factor(path.total_contact_ratio) * MM / given.gears.face_width
     rough = (given.pinion_material.roughness + given.wheel_material.roughness) / 2 * 1e6
     roughness_factor = 2.2 * (rough / radius) ** 0.25

@@ -63,7 +63,6 @@ def standard_notices(
     if standard is not None:
         return
     reasons = {
-        "the load sharing factors of helical gears are not known": path.plane.tan_base_helix > 0.0,
         "the load sharing factors of gears with tip or root relief are not known": has_relief(given),
         "method B is defined only for transverse contact ratios from 1 to 2": not has_single_contact(path),
     }

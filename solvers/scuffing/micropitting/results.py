@@ -5,6 +5,7 @@ from typing import Literal
 from solvers.arrays import FloatArray
 from solvers.quantity import quantity, record
 from solvers.scuffing.inputs import ISO_TR_15144
+from solvers.scuffing.standard.load_factors import LoadFactors
 
 PointName = Literal["A", "AB", "B", "C", "D", "DE", "E"]
 Verdict = Literal["micropitting is likely", "limited margin", "micropitting is unlikely"]
@@ -108,7 +109,7 @@ class StandardPoint:
 
     point: PointName = quantity("point of the path", equation="micropitting#method-b-the-standard")
     force_ratio: float = quantity(
-        "load sharing factor of the standard", "X", f"{ISO_TR_15144}, formulas 46 to 48", equation="M12"
+        "load sharing factor of the standard", "X", f"{ISO_TR_15144}, formulas 46 to 48", equation="M16"
     )
     pressure: float = quantity(
         "Hertzian pressure of the standard", "p_dyn", f"{ISO_TR_15144}, formulas 24 and 25", unit="mpa", equation="M13"
@@ -128,7 +129,7 @@ class StandardPoint:
 
 @record(equation="M7")
 class StandardFilm:
-    """Results of method B at seven points of a spur pair without relief; the load is uniform over the face."""
+    """Results of method B at seven points of a pair without relief, with the load factors of the standard."""
 
     friction_coefficient: float = quantity(
         "coefficient of friction of the standard", "μ_m", f"{ISO_TR_15144}, formula 86", equation="M9"
@@ -145,6 +146,7 @@ class StandardFilm:
         text="method B; null without a permissible ratio",
     )
     points: tuple[StandardPoint, ...] = quantity("points of the path of contact")
+    factors: LoadFactors = quantity("load factors of the standard")
 
 
 @record(equation="M14")
@@ -161,7 +163,7 @@ class Micropitting:
     local: LocalFilm = quantity("film by the own load (method A)")
     standard: StandardFilm | None = quantity(
         "film by the standard (method B)",
-        text="null for helical pairs, with tip or root relief, and where more than two pairs of teeth carry",
+        text="null with tip or root relief, and for transverse contact ratios below 1 and above 2",
     )
 
 

@@ -20,7 +20,7 @@ STEEL_EXPANSION = 12e-6  # 1/K, thermal expansion of gears and casing
 def pair_heat(inputs: ScuffingInputs, distribution: LoadDistribution, estimate: float | None) -> Heat:
     """Solve the heat balance of a pair.
 
-    `estimate`: bulk temperature by ISO/TR 13989-1 [K]; the result only repeats this temperature for comparison. Raises
+    `estimate`: bulk temperature by ISO/TS 6336-20 [K]; the result only repeats this temperature for comparison. Raises
     InvalidInput: `exclusive` if two given values exclude each other, `measured_unreachable` if the model cannot reach a
     measured temperature. Raises NoSolution: `heat_balance` if the iteration does not converge, `thermal_runaway` if the
     equilibrium is unstable.

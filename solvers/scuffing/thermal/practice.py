@@ -1,4 +1,4 @@
-"""Estimates of ISO/TR 13989-1: mean friction, scuffing temperature from an FZG test, bulk temperature, risk class.
+"""Estimates of ISO/TS 6336-20: mean friction, scuffing temperature from an FZG test, bulk temperature, risk class.
 
 The formulas, the load factors and the upper limit of 50 m/s for the speed follow a public implementation of the
 standard. The lower limit of 150 N/mm for the line load is quoted from a secondary source and was not verified against
@@ -107,7 +107,7 @@ def bulk_temperature(oil: float, supply: OilSupply, mean_flash: float) -> float:
 
 
 def scuffing_risk(safety: float) -> ScuffingRisk:
-    """Return the risk class by ISO/TR 13989-1 for a safety factor that was computed with Blok's flash temperature.
+    """Return the risk class by ISO/TS 6336-20 for a safety factor that was computed with Blok's flash temperature.
 
     The risk is high below 1, low above 2, and moderate in between. These limits are quoted from a secondary source.
     """

@@ -19,7 +19,7 @@ from solvers.heat_balance import Heat, network_of
 from solvers.lubricants import Lubricant
 from solvers.notices import Notice, Rank
 from solvers.oils import OilSheet, lubricant_at
-from solvers.scuffing.inputs import ScuffingInputs
+from solvers.scuffing.inputs import ScuffingInputs, Temperatures
 from solvers.scuffing.mesh_results import friction_loss
 from solvers.scuffing.model import solve
 from solvers.scuffing.results import LoadDistribution
@@ -83,6 +83,26 @@ def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
     return InForce(complete, distribution, flash, heat, rule, rule.in_force(flanks))
 
 
+def pair_in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
+    """As `in_force`; a dry or greased pair, which has no oil, keeps the temperatures that are given."""
+    found, asked = in_force(inputs, distribution), inputs.temperatures
+    if inputs.known_oil is not None or asked.bulk is None or found.rule.method != "given":
+        return found
+    test, limit = asked.scuffing_test, asked.scuffing
+    if test is not None and test.lubricant_factor is not None:
+        limit = scuffing_temperature(test.fzg_stage, test.structure_factor, test.lubricant_factor)
+    temperatures = replace(asked, scuffing=limit)
+    check_limit(temperatures)
+    return found._replace(inputs=replace(found.inputs, temperatures=temperatures))
+
+
+def check_limit(temperatures: Temperatures) -> None:
+    """Raise InvalidInput `scuffing_temperature` if the scuffing temperature is not above the oil temperature."""
+    if temperatures.scuffing is not None and temperatures.scuffing <= temperatures.oil:
+        message = "the scuffing temperature must be above the oil temperature"
+        raise InvalidInput("scuffing_temperature", message, "temperatures.scuffing")
+
+
 def bulk_rule(inputs: ScuffingInputs, distribution: LoadDistribution, flash: FlashMap) -> BulkRule:
     """Return how the bulk temperature follows from the estimate and from a heat balance."""
     oil = inputs.known_oil
@@ -108,7 +128,7 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
     The flash temperature is computed with the coefficient in the returned inputs.
 
     If the coefficient of friction is given, it is used for the flash temperature and for the losses. If it is not
-    given, two coefficients are estimated. The coefficient for the flash temperature is that of ISO/TR 13989-1, which is
+    given, two coefficients are estimated. The coefficient for the flash temperature is that of ISO/TS 6336-20, which is
     on the safe side for scuffing. The coefficient for the losses is Schlenk's, which is a mean value for the
     efficiency. If the oil, the load or the speed is missing, both estimates are None.
     """
@@ -144,9 +164,7 @@ def with_temperatures(inputs: ScuffingInputs) -> ScuffingInputs:
         limit = scuffing_temperature(test.fzg_stage, test.structure_factor, factor)
         test = replace(test, lubricant_factor=factor)
         temperatures = replace(temperatures, scuffing=limit, scuffing_test=test)
-    if temperatures.scuffing is not None and temperatures.scuffing <= temperatures.oil:
-        message = "the scuffing temperature must be above the oil temperature"
-        raise InvalidInput("scuffing_temperature", message, "temperatures.scuffing")
+    check_limit(temperatures)
     bulk = temperatures.bulk
     if bulk is None and temperatures.bulk_method in {"given", "heat_balance"}:
         message = f"the method '{temperatures.bulk_method}' needs a bulk temperature; give a bulk temperature"
@@ -177,10 +195,12 @@ def _oil_out_of_range(inputs: ScuffingInputs, bulk: float) -> InvalidInput:
 def oil_notices(inputs: ScuffingInputs, path: PathOfContact, bulk: BulkInForce) -> Iterator[Notice]:
     """Warn of a missing oil or bulk temperature, of doubtful estimates, and of unused inputs of the cooling."""
     if inputs.known_oil is None:
-        message = (
-            "no oil is given (iso_vg, kinematic_viscosity_40 or viscosity_pa_s); film, contact temperature and safety "
-            "are therefore not stated"
+        what = (
+            "film, contact temperature and safety are therefore not stated"
+            if inputs.temperatures.bulk is None
+            else "the pair is taken as dry or greased, with the given temperatures and friction and without a film"
         )
+        message = f"no oil is given (iso_vg, kinematic_viscosity_40 or viscosity_pa_s); {what}"
         yield Notice("no_oil", message, "lubricant", rank="note")
         return
     yield from _material_notices(inputs, bulk)
@@ -222,7 +242,7 @@ def _material_notices(inputs: ScuffingInputs, bulk: BulkInForce) -> Iterator[Not
     test = inputs.micropitting
     safe_film = test is not None and (test.permissible_ratio is not None or test.failure_load_stage is not None)
     estimated = [name for name, is_estimated in estimates.items() if is_estimated]
-    laws = [f"ISO/TR 13989-1 estimates {' and '.join(estimated)}"] if estimated else []
+    laws = [f"ISO/TS 6336-20 estimates {' and '.join(estimated)}"] if estimated else []
     laws += ["ISO/TR 15144-1 states the safety against micropitting"] if safe_film else []
     given, (least, largest) = inputs.distribution, STEEL_MODULI
     for name, solid in (("pinion", given.pinion_material), ("wheel", given.wheel_material)):

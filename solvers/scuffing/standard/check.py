@@ -1,0 +1,49 @@
+"""The check by the standard that stands beside the local one."""
+
+from collections.abc import Iterator
+
+from solvers.notices import Notice
+from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, ScuffingTest
+from solvers.scuffing.micropitting.standard import has_relief
+from solvers.scuffing.results import LoadDistribution
+from solvers.scuffing.standard.factors import load_factors
+from solvers.scuffing.standard.flash import solve_flash
+from solvers.scuffing.standard.integral import solve_integral
+from solvers.scuffing.standard.load_factors import LoadFactors
+from solvers.scuffing.standard.mesh import StandardMesh, standard_oil
+from solvers.scuffing.standard.results import ScuffingStandard
+
+
+def factors_of(inputs: ScuffingInputs, distribution: LoadDistribution) -> LoadFactors:
+    """Return the load factors of the standard for the load distribution of the pair."""
+    computed = distribution.load.face_load_factor or 1.0
+    return load_factors(inputs.distribution, distribution.path_of_contact, inputs.standard, computed)
+
+
+def standard_notices(given: LoadDistributionInputs, standard: ScuffingStandard | None) -> Iterator[Notice]:
+    """Say why the flash temperature method has no numbers although the pair is checked by the standard."""
+    if standard is not None and standard.flash is None and has_relief(given):
+        message = (
+            "the flash temperature method of the standard cannot be computed: its load sharing factors of gears with "
+            "tip or root relief are not known; the integral temperature method can"
+        )
+        yield Notice("no_standard_flash", message, "modifications", rank="note")
+
+
+def check_by_standard(
+    inputs: ScuffingInputs, distribution: LoadDistribution, test: ScuffingTest | None
+) -> ScuffingStandard | None:
+    """Check the pair by both methods; `test` is the scuffing test as asked, without the X_L of 90 C.
+
+    None without oil, load or motion, and if the oil has no viscosity at the oil temperature.
+    """
+    given, oil = inputs.distribution, inputs.known_oil
+    if oil is None or distribution.balance.force == 0.0 or given.load.pinion_speed == 0.0:
+        return None
+    known = standard_oil(oil, inputs.temperatures.oil)
+    if known is None:
+        return None
+    factors = factors_of(inputs, distribution)
+    mesh = StandardMesh(given, distribution.path_of_contact, factors, inputs.standard, inputs.temperatures, known)
+    edition = inputs.standard_edition
+    return ScuffingStandard(edition, factors, solve_flash(mesh, edition, test), solve_integral(mesh, test))
