@@ -18,7 +18,7 @@ SCOPE = {  # mm; beyond these limits the standard forbids its formulas
 }
 
 
-@record(kw_only=True, equation="T1")
+@record(kw_only=True, equation="Q1")
 class FlankTolerances:
     """Tolerances of both gears, and three standard deviations of the gap of the pair [m]."""
 
@@ -44,8 +44,13 @@ def rounded(tolerance: float) -> float:
     return round(floor(tolerance / step + 0.5) * step, 1)
 
 
+def single_pitch(diameter: float, module: float) -> float:
+    """Single pitch tolerance f_pT of class 5 [um] at reference diameter and module [mm], not rounded."""
+    return 0.001 * diameter + 0.4 * module + 5.0
+
+
 def flank_tolerances(gears: GearPairInputs) -> FlankTolerances | None:
-    """Tolerances of the quality class of the pair (Eq. T1); None without a class.
+    """Tolerances of the quality class of the pair (Eq. Q1); None without a class.
 
     Raises InvalidInput `quality_class` if module, face width or a diameter is beyond the limits of the standard.
     """
@@ -75,7 +80,7 @@ def _of_gear(gears: GearPairInputs, teeth: GearTeeth, quality_class: int) -> dic
     step = sqrt(2.0) ** (quality_class - 5)
     slope, form = 0.05 * sqrt(d) + 0.35 * sqrt(b) + 4.0, 0.07 * sqrt(d) + 0.45 * sqrt(b) + 4.0
     class_5 = {
-        "single_pitch": 0.001 * d + 0.4 * m_n + 5.0,
+        "single_pitch": single_pitch(d, m_n),
         "profile_slope": 0.4 * m_n + 0.001 * d + 4.0,
         "helix_slope": slope,
         "helix": hypot(slope, form),  # of values that are not rounded

@@ -161,12 +161,12 @@ class Faces:
         return float(self.mass.sum(axis=0) @ values / self.mass.sum())
 
     def tooth_area(self, gear: CooledGear) -> float:
-        """Cross-section of all teeth for conduction along the face, z 2.25 m_n pi m_n/(2 cos beta) [m^2] (Eq. W1)."""
+        """Cross-section of all teeth for conduction along the face, z 2.25 m_n pi m_n/(2 cos beta) [m^2]."""
         transverse = 2 * gear.flanks.radius / gear.teeth  # m_n/cos(beta)
         return gear.teeth * TOOTH_HEIGHT * self.normal_module * pi * transverse / 2
 
     def solve(self, load: FloatArray, start: Along | None = None) -> Along:
-        """Solve the temperatures under a relative line load at the nodes, by Newton's method.
+        """Solve the temperatures under a relative line load at the nodes, by Newton's method (Eq. W1, W2).
 
         Raises NoSolution `heat_balance` if it does not converge.
         """
@@ -181,7 +181,7 @@ class Faces:
         raise NoSolution("heat_balance", message, {"residual_w": float(np.abs(residual).max())})
 
     def by_load(self, along: Along, hats: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Flanks and bodies (gears, nodes, hats) [K] per relative line load `hats` (nodes, hats) (Eq. W8).
+        """Flanks and bodies (gears, nodes, hats) [K] per relative line load `hats` (nodes, hats).
 
         Mist and friction power stay as they are; the cooling by oil follows the temperature.
         """
@@ -208,7 +208,7 @@ class Faces:
         return float(self.mass.sum())
 
     def _mesh_power(self, flanks: FloatArray) -> float:
-        """Friction of the mesh [W] at the mean of both flanks (Eq. H6)."""
+        """Friction of the mesh [W] at the mean of both flanks."""
         mean = (self.mean(flanks[0]) + self.mean(flanks[1])) / 2
         return self.network.mesh.at(self.network.oil, self.network.oil.inlet + mean)
 

@@ -68,7 +68,7 @@ class JetDistribution:
 
     position: tuple[float, ...] = quantity(
         "positions of the jets' distribution",
-        "y",
+        "y_g",
         unit="mm",
         default=(),
         ge=0,
@@ -96,7 +96,7 @@ class FaceReading:
     gear: GearName = quantity("gear of the reading")
     place: Literal["flank", "body"] = quantity("place of the reading", text="loaded flank, or tooth and rim")
     position: float = quantity(
-        "position of the reading", "y", unit="mm", ge=0, le=5000, tolerance=1, text="from the end that meshes first"
+        "position of the reading", "y_θ", unit="mm", ge=0, le=5000, tolerance=1, text="from the end that meshes first"
     )
     temperature: float = quantity("temperature of the reading", "θ", unit="c", ge=-50, le=400, tolerance=3)
     helix: Literal[1, 2] = quantity(

@@ -141,14 +141,16 @@ class HeatBand:
 class GearAlongFace:
     """Temperatures of a gear at the stations of a face."""
 
-    flank: FloatArray = quantity("flank temperature along the face", "θ_F(y)", OWN, unit="c", axis="position")
+    flank: FloatArray = quantity(
+        "flank temperature along the face", "θ_F(y)", OWN, unit="c", index="station of the face"
+    )
     body: FloatArray = quantity(
         "temperature of the teeth along the face",
         "θ_S(y)",
         OWN,
         unit="c",
         text="middle of the teeth, and root circle of the body",
-        axis="position",
+        index="station of the face",
         equation="W2",
     )
 
@@ -162,16 +164,29 @@ class UniformHeat:
         "safety factor at even heat", "S_B,0", text="on the flank by Blok; null without a scuffing temperature"
     )
     pinion_flank: FloatArray = quantity(
-        "flank of the pinion at even heat", "θ_F1,0", OWN, unit="c", text="at the same positions", detail="curves"
+        "flank of the pinion at even heat",
+        "θ_F1,0",
+        OWN,
+        unit="c",
+        text="at the same positions",
+        index="station of the face",
+        detail="curves",
     )
     wheel_flank: FloatArray = quantity(
-        "flank of the wheel at even heat", "θ_F2,0", OWN, unit="c", text="at the same positions", detail="curves"
+        "flank of the wheel at even heat",
+        "θ_F2,0",
+        OWN,
+        unit="c",
+        text="at the same positions",
+        index="station of the face",
+        detail="curves",
     )
     line_force: FloatArray = quantity(
         "transverse force per face at even heat",
         "q_0",
         unit="n_per_mm",
         text="at the same positions",
+        index="station of the face",
         detail="curves",
         equation="D11",
     )
@@ -224,7 +239,8 @@ class FaceHeat:
         "Δθ",
         unit="k",
         default=None,
-        text="calculated minus measured, in the order of the request; left out without readings",
+        text="calculated minus measured; left out without readings",
+        index="reading, in the order of the request",
         left_out=True,
         equation="heat-balance#the-warm-face",
     )

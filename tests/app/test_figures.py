@@ -56,7 +56,7 @@ FIGURES = {
     ),
     "/v1/drive-train/warm-up": "warm-up alignment",
 }
-BALANCE = {"safety-band", "heat-flows", "node-temperatures", "oil-flow"}
+BALANCE = {"safety-band", "heat-flows", "node-temperatures", "oil-flow", "face-heat"}
 MICROPITTING = {"micropitting", "micropitting-film", "wear"}
 TWO_HELICES = {"helices", "thrust-shares"}
 # One ordinary case of each endpoint, drawn in the default run.

@@ -419,7 +419,7 @@ def test_stagnation_temperature_of_the_axial_speed_only_is_an_assumption(flow: s
         ("starter-coupling-at-its-limits", [("invalid", "edge_contact"), ("doubtful", "sliding_velocity")]),
         (
             "starter-turbo-gear-drive-train",
-            [("doubtful", "thrust_reversal"), ("doubtful", "net_flow_uncertain")],
+            [("doubtful", "thrust_reversal"), ("doubtful", "net_flow_uncertain"), ("note", "gas_grows_freely")],
         ),
         (
             "milian-table-1-incompressible",

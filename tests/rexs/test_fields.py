@@ -606,6 +606,7 @@ NOT_IN_FILES = {
     "*.bearings.*.film_temperature_c": "follows from the feed temperature",
     "*.bearings.*.viscosity_pa_s": "follows from the oil and the feed temperature",
     "*.thrust_bearing.*": "unknown to the standard",
+    "*.gear_body.*": "files give the material and the teeth of a gear",
 }
 """Patterns of the fields of a request that no file gives, each with the reason."""
 

@@ -290,7 +290,7 @@ class MeshInOil(Request):
         if self.model.lubrication == "thermal_ehl":
             reasons["model.lubrication"] = SMOOTH_FILM
         if self.micropitting is not None and self.micropitting.failure_load_stage == LAST_STAGE:
-            reasons["micropitting.failure_load_stage"] = PASSED
+            reasons.setdefault("micropitting.failure_load_stage", PASSED)
         return reasons
 
 

@@ -116,7 +116,7 @@ class WarmFaces:
         raise NoSolution("heat_balance", message, {"change_of_load": largest})
 
     def load_after(self, load: FloatArray, start: Equilibrium) -> FloatArray:
-        """Relative line load (faces, stations) that the temperatures of a load bring about (Eq. W1 to W7)."""
+        """Relative line load (faces, stations) that the temperatures of a load bring about (Eq. W7)."""
         prepared = self._heated(self.faces.solve(self.at_nodes(load)))
         return self.relative_load(settle(self.inputs, prepared, start.gap))
 
@@ -204,7 +204,7 @@ class WarmFaces:
 
     @cached_property
     def levers(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """sin(alpha') and s - r_f sin(alpha') of pinion and wheel (Eq. W4) [1, m]."""
+        """sin(alpha') and s - r_f sin(alpha') of pinion and wheel [1, m]."""
         path = self.prepared.path
         pair, arms = path.pair, (path.pitch_point, path.pair.line_of_action - path.pitch_point)
         radii = (pair.pinion_working_radius, pair.wheel_working_radius)
@@ -230,7 +230,7 @@ class WarmFaces:
         return np.asarray(expansion * (slope * (body.radial @ sources) + length * teeth + tilt * axial.T))
 
     def _own_leads(self, along: Along) -> FloatArray:
-        """Gaps by the own heat of the teeth (faces, nodes) [m], from the ends that mesh first (Eq. W5)."""
+        """Gaps by the own heat of the teeth (faces, nodes) [m], from the ends that mesh first."""
         shift = self.network.oil.inlet - self.inputs.heat.reference
         growth = sum(
             self.growth(
@@ -256,12 +256,13 @@ class WarmFaces:
         return self.gaps(growth)
 
     def gaps(self, growth: FloatArray) -> FloatArray:
+        """Gaps (faces, nodes) [m] by the growth at the nodes, less the mean over each face (Eq. W5)."""
         position = self.ordered(self.faces.position.ravel())
         pairs = zip(self.ordered(growth), position, strict=True)
         return np.array([np.trapezoid(own, y) / np.ptp(y) - own for own, y in pairs])
 
     def _heated(self, along: Along) -> Prepared:
-        """Return the unit with the gaps and the flanks of these temperatures (Eq. W7)."""
+        """Return the unit with the gaps and the flanks of these temperatures."""
         before, own, even = self.prepared, self._own_leads(along), self._own_leads(self._even)
         flanks = self._absolute(along.flanks)
         points = np.linspace(0.0, before.unit.stations[-1], before.thermals[0].lead.size)
@@ -274,7 +275,7 @@ class WarmFaces:
         return replace(before, meshes=tuple(meshes), thermals=tuple(thermals))
 
     def by_gap(self, equilibrium: Equilibrium) -> FloatArray:
-        """C: relative line load per gap at the stations of all faces [1/m] (Eq. W8)."""
+        """C: relative line load per gap at the stations of all faces [1/m]."""
         force = float(equilibrium.loads[: self.prepared.unit.count].sum())
         faces, count = len(self.prepared.meshes), self.prepared.unit.stations.size
         weights = np.full(count, 1.0 / (count - 1))
@@ -298,7 +299,7 @@ class WarmFaces:
         return -self.by_gap(equilibrium) @ without_mean.reshape(hats.shape[1], -1).T
 
     def fit(self, readings: tuple[FaceReading, ...], equilibrium: Equilibrium) -> tuple[float, float]:
-        """Wetting share and skew of the jets that come closest to the readings, at the load that is there (H19)."""
+        """Wetting share and skew of the jets that come closest to the readings, at the load that is there."""
         load = self.relative_load(equilibrium)
         skewed = len({reading.position for reading in readings}) > 1
 
@@ -335,12 +336,12 @@ class WarmFaces:
         return self.amplification(equilibrium, self.faces.solve(self.at_nodes(load)))
 
     def amplification(self, equilibrium: Equilibrium, along: Along) -> Amplification:
-        """How the loop multiplies a skew of the gap of every face at a load (Eq. W9)."""
+        """How the loop multiplies a skew of the gap of every face at a load."""
         return amplification(self.loop(equilibrium, along), self.by_gap(equilibrium), len(self.prepared.meshes))
 
 
 def amplification(loop: FloatArray, by_gap: FloatArray, faces: int) -> Amplification:
-    """How a loop multiplies the load by a skewed gap of each face; both matrices by the stations of all faces (W9)."""
+    """How a loop multiplies the load by a skewed gap of each face; both matrices by the stations of all faces (Eq. W9)."""
     count = len(loop) // faces
     largest = float(np.linalg.eigvals(loop).real.max())
     skew = np.linspace(-0.5, 0.5, count)

@@ -7,6 +7,7 @@ from math import cos, pi, sin, sqrt
 from typing import NamedTuple
 
 from solvers.gears.pair import PathOfContact
+from solvers.gears.tolerances import single_pitch
 from solvers.scuffing.inputs import LoadDistributionInputs, StandardFactors
 from solvers.scuffing.mesh_results import StandardStiffness, standard_stiffness
 from solvers.scuffing.standard.load_factors import LoadFactors
@@ -33,7 +34,7 @@ def deviations(path: PathOfContact, grade: int) -> Deviations:
     pair = path.pair
     module, step = pair.inputs.normal_module / MM, 2.0 ** ((grade - 5) / 2)
     diameter = 2 * max(pair.pinion.reference_radius, pair.wheel.reference_radius) / MM
-    base_pitch = (0.001 * diameter + 0.4 * module + 5.0) * step * cos(pair.transverse_pressure_angle)
+    base_pitch = single_pitch(diameter, module) * step * cos(pair.transverse_pressure_angle)
     form = (0.55 * module + 5.0) * step
     return Deviations(*(value - min(RUNNING_IN_SHARE * value, LARGEST_RUNNING_IN) for value in (base_pitch, form)))
 

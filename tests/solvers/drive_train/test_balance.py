@@ -182,7 +182,8 @@ def test_forces_and_moments_are_in_balance(inputs: DriveTrainInputs) -> None:
         getattr(parts, name)
         for name in ("bending", "torsion", "tilting_moment", "films", "bearing_offsets", "coupling", "collar", "weight")
     )
-    assert total == pytest.approx(found.misalignment.shaft_slope, abs=2e-12)
+    # The residual of the gap, 1e-12 m at a station, tilts its straight line by at most three times as much.
+    assert total == pytest.approx(found.misalignment.shaft_slope, abs=3e-12)
 
 
 @examples(15, 1000, units())
