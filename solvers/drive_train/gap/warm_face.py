@@ -341,7 +341,7 @@ class WarmFaces:
 
 
 def amplification(loop: FloatArray, by_gap: FloatArray, faces: int) -> Amplification:
-    """How a loop multiplies the load by a skewed gap of each face; both matrices by the stations of all faces (Eq. W9)."""
+    """How a loop multiplies the load by a skewed gap of each face, by the stations of all faces (Eq. W9)."""
     count = len(loop) // faces
     largest = float(np.linalg.eigvals(loop).real.max())
     skew = np.linspace(-0.5, 0.5, count)
