@@ -341,7 +341,7 @@ def face_heat(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
             "uniform_face", "The temperatures along the face are uniform; ask for the profile", "model.face_heat"
         )
     even, x, load = along.uniform_heat, face(face_width(inputs)), result.misalignment.curves
-    warm = axis(along.pinion, "flank", "flank temperature")
+    warm = axis(along.pinion, "flank", "flank temperature", magnitude=False)
     lines = [
         Line(f"{gear}{title}", along.position, curve, hue, role)
         for gear, hue, curves in (
