@@ -462,8 +462,11 @@ class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
             )
         return self
 
+    def _along_face(self) -> bool:
+        return False  # a warm-up has uniform temperatures along the face
+
     def unused(self) -> dict[str, bool]:
-        return super().unused() | {"cooling.casing.mass_kg": False, "states": True}
+        return super().unused() | {"cooling.casing.mass_kg": False, "states": True, "model.face_heat": True}
 
     def inputs(self) -> warm_up.WarmUpInputs:  # type: ignore[override]
         return self.si(warm_up.WarmUpInputs, unit=super().inputs())
