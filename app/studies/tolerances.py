@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from app.errors import Unprocessable
+from app.models.sections.gears import SECOND_BY_CLASS, SLOPES_BY_CLASS
 from app.schema.fields import value_at
 from app.schema.model import Request
 from app.studies.requests import Axis, Normal
@@ -17,8 +18,6 @@ from solvers.gears.inputs import RACK_A, GearPairInputs
 from solvers.gears.tolerances import DEVIATIONS, flank_tolerances
 from solvers.quantity import UNITS
 
-HELIX, SECOND_HELIX = "modifications.helix_slope_um", "modifications.second_helix.helix_slope_um"
-PROFILE = "modifications.profile_slope_um"
 BY_CLASS = "by quality class"  # the reasons of assumptions begin with these words
 
 
@@ -36,7 +35,8 @@ def class_tolerances(request: Request) -> dict[str, float]:
         raise Unprocessable(error.code, error.message, f"request.gears.{error.field}") from error
     assert pair is not None
     helix, profile = (UNITS["um"].from_si(value) for value in (pair.helix_slope, pair.profile_slope))
-    return {HELIX: helix, PROFILE: profile} | ({SECOND_HELIX: helix} if _has_second(request) else {})
+    paths = [*SLOPES_BY_CLASS, *([SECOND_BY_CLASS] if _has_second(request) else [])]
+    return dict(zip(paths, (helix, profile, helix), strict=False))
 
 
 def class_distributions(request: Request) -> list[Normal]:
@@ -53,7 +53,8 @@ def class_corners(request: Request) -> dict[str, Axis]:
     Two helices move together: each of them meets both ends, and the worse one decides.
     """
     tolerances = class_tolerances(request)
-    slopes = {"helix slope": [HELIX, SECOND_HELIX], "profile slope": [PROFILE]}
+    helix, profile = SLOPES_BY_CLASS
+    slopes = {"helix slope": [helix, SECOND_BY_CLASS], "profile slope": [profile]}
     axes = {}
     for slope, paths in slopes.items() if tolerances else ():
         varied = [path for path in paths if path in tolerances]
@@ -88,4 +89,4 @@ def _has_second(request: Request) -> bool:
 def _nominal(request: Request, path: str) -> float:
     """Return the value of the case; a second helix without a slope of its own has that of the first."""
     value = value_at(request, path)
-    return float(value_at(request, HELIX) if value is None else value)
+    return float(value_at(request, SLOPES_BY_CLASS[0]) if value is None else value)

@@ -16,7 +16,7 @@ from solvers.scuffing.inputs import (
     StandardFactors,
     Temperatures,
 )
-from solvers.scuffing.standard.factors import load_factors, stiffness_of
+from solvers.scuffing.load_factors.method_b import load_factors, stiffness_of
 from solvers.scuffing.standard.flash import solve_flash
 from solvers.scuffing.standard.integral import solve_integral
 from solvers.scuffing.standard.mesh import StandardMesh, standard_oil

@@ -6,15 +6,19 @@ import pytest
 
 from app.calculations import BY_PATH
 from app.examples import examples
+from app.models.sections.gears import SECOND_BY_CLASS as SECOND_HELIX
+from app.models.sections.gears import SLOPES_BY_CLASS
 from app.schema.fields import value_at
 from app.schema.reading import validated
 from app.studies.kinds.corners import Corners
 from app.studies.kinds.sensitivity import Sensitivity
 from app.studies.kinds.spectrum import Spectrum
 from app.studies.requests import DRIVE_TRAIN
-from app.studies.tolerances import HELIX, PROFILE, SECOND_HELIX, class_corners, class_tolerances
+from app.studies.tolerances import class_corners, class_tolerances
 from tests.support.requests import PAIR, changed, solved
 from tests.support.studies import fault_of, lines_of, timeless
+
+HELIX, PROFILE = SLOPES_BY_CLASS
 
 LOADS = "/v1/scuffing/load-distribution"
 CLASSED = changed(

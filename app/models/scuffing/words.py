@@ -17,9 +17,9 @@ from solvers.heat_balance import results as heat
 from solvers.heat_balance.notices import KNOWN_WITHIN
 from solvers.lubricants import OilInUse
 from solvers.scuffing import safety_results as results
+from solvers.scuffing.load_factors.results import LoadFactors
 from solvers.scuffing.micropitting import results as film_results
 from solvers.scuffing.standard import results as standard_results
-from solvers.scuffing.standard.load_factors import LoadFactors
 
 OPTIONAL_CHAPTERS = {"micropitting": "micropitting", "heat": "heat-balance"}
 ABOVE_ONE = View(limit=1.0, bound="lower")

@@ -10,6 +10,11 @@ from solvers.gears.inputs import GROUND_FILLET, RACK_A, GearPairInputs, GearTeet
 from solvers.materials import Solid
 from solvers.pumping.inputs import PumpingSetup
 
+SLOPES_BY_CLASS = ("modifications.helix_slope_um", "modifications.profile_slope_um")
+"""The fields that scatter by the quality class of the gears."""
+SECOND_BY_CLASS = "modifications.second_helix.helix_slope_um"
+"""The field of a second helix that does."""
+
 
 class GearMember(Section, of=GearTeeth):
     """One gear of the pair. Coefficients, such as the addendum, are multiples of the normal module."""

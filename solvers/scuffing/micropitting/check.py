@@ -9,6 +9,7 @@ from solvers.notices import Notice
 from solvers.scuffing.contact_slices import Peak
 from solvers.scuffing.inputs import MicropittingCheck, ScuffingInputs
 from solvers.scuffing.load_balance import BESIDE
+from solvers.scuffing.load_factors.method_b import factors_of
 from solvers.scuffing.micropitting.local import FlankFilm, find_least, flank_film
 from solvers.scuffing.micropitting.notices import hot_film_notices, range_notices, standard_notices
 from solvers.scuffing.micropitting.oil_test import film_of_test, permissible_ratio
@@ -22,7 +23,6 @@ from solvers.scuffing.micropitting.results import (
 )
 from solvers.scuffing.micropitting.standard import characteristic_points, has_standard_film, solve_standard
 from solvers.scuffing.results import LoadDistribution
-from solvers.scuffing.standard.check import factors_of
 from solvers.scuffing.thermal.flank import FaceFunction, FlashMap
 
 LIKELY_BELOW, UNLIKELY_ABOVE = 1.0, 2.0  # limits of the safety factor, from common practice

@@ -5,7 +5,7 @@ from typing import Literal
 from solvers.arrays import FloatArray
 from solvers.quantity import quantity, record
 from solvers.scuffing.inputs import ISO_TR_15144
-from solvers.scuffing.standard.load_factors import LoadFactors
+from solvers.scuffing.load_factors.results import LoadFactors
 
 PointName = Literal["A", "AB", "B", "C", "D", "DE", "E"]
 Verdict = Literal["micropitting is likely", "limited margin", "micropitting is unlikely"]

@@ -4,20 +4,13 @@ from collections.abc import Iterator
 
 from solvers.notices import Notice
 from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, ScuffingTest
+from solvers.scuffing.load_factors.method_b import factors_of
 from solvers.scuffing.micropitting.standard import has_relief
 from solvers.scuffing.results import LoadDistribution
-from solvers.scuffing.standard.factors import load_factors
 from solvers.scuffing.standard.flash import solve_flash
 from solvers.scuffing.standard.integral import solve_integral
-from solvers.scuffing.standard.load_factors import LoadFactors
 from solvers.scuffing.standard.mesh import StandardMesh, standard_oil
 from solvers.scuffing.standard.results import ScuffingStandard
-
-
-def factors_of(inputs: ScuffingInputs, distribution: LoadDistribution) -> LoadFactors:
-    """Return the load factors of the standard for the load distribution of the pair."""
-    computed = distribution.load.face_load_factor or 1.0
-    return load_factors(inputs.distribution, distribution.path_of_contact, inputs.standard, computed)
 
 
 def standard_notices(given: LoadDistributionInputs, standard: ScuffingStandard | None) -> Iterator[Notice]:

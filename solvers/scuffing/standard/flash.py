@@ -7,9 +7,9 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.gears.pair import PathOfContact
 from solvers.scuffing.inputs import ScuffingTest, StandardEdition
+from solvers.scuffing.load_factors.method_b import MM, STIFFNESS, UM, nominal_line_load, stiffness_of
 from solvers.scuffing.mesh_results import iso_load_sharing
 from solvers.scuffing.micropitting.standard import characteristic_points, has_relief
-from solvers.scuffing.standard.factors import MM, STIFFNESS, UM, nominal_line_load, stiffness_of
 from solvers.scuffing.standard.mesh import StandardMesh
 from solvers.scuffing.standard.results import FlashMethod, FlashPoint
 from solvers.scuffing.thermal.practice import (

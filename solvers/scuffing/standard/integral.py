@@ -4,8 +4,8 @@ from math import cos, sin, sqrt, tan
 from typing import NamedTuple
 
 from solvers.scuffing.inputs import ScuffingTest
+from solvers.scuffing.load_factors.method_b import MM, STIFFNESS, UM, nominal_line_load, stiffness_of
 from solvers.scuffing.micropitting.mean_values import helical_load_factor
-from solvers.scuffing.standard.factors import MM, STIFFNESS, UM, nominal_line_load, stiffness_of
 from solvers.scuffing.standard.mesh import StandardMesh
 from solvers.scuffing.standard.results import IntegralMethod
 from solvers.scuffing.thermal.practice import FASTEST_PITCH_LINE, LEAST_LINE_LOAD, OIL_KIND_FACTOR

@@ -14,8 +14,8 @@ from solvers.lubricants import Lubricant, OilKind
 from solvers.materials import Solid
 from solvers.oils import SQUARE_MILLIMETRE, OilSheet, lubricant_at
 from solvers.scuffing.inputs import LoadDistributionInputs, OilSupply, StandardFactors, Temperatures
-from solvers.scuffing.standard.factors import MM, UM
-from solvers.scuffing.standard.load_factors import LoadFactors
+from solvers.scuffing.load_factors.method_b import MM, UM
+from solvers.scuffing.load_factors.results import LoadFactors
 from solvers.scuffing.thermal.practice import OIL_SUPPLY_FACTOR, pitch_line_velocity
 
 

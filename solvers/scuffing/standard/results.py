@@ -2,8 +2,8 @@
 
 from solvers.quantity import quantity, record
 from solvers.scuffing.inputs import TS_6336_20, TS_6336_21, StandardEdition
+from solvers.scuffing.load_factors.results import LoadFactors
 from solvers.scuffing.micropitting.results import PointName
-from solvers.scuffing.standard.load_factors import LoadFactors
 
 
 @record(equation="T9")

@@ -26,7 +26,7 @@ from solvers.scuffing.inputs import (
     StandardFactors,
     Temperatures,
 )
-from solvers.scuffing.standard.factors import dynamic_factor, load_factors, transverse_load_factor
+from solvers.scuffing.load_factors.method_b import dynamic_factor, load_factors, transverse_load_factor
 from solvers.scuffing.standard.flash import approach_factor, flash_temperature, solve_flash
 from solvers.scuffing.standard.integral import (
     addendum_contact,

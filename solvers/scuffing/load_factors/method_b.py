@@ -8,9 +8,10 @@ from typing import NamedTuple
 
 from solvers.gears.pair import PathOfContact
 from solvers.gears.tolerances import single_pitch
-from solvers.scuffing.inputs import LoadDistributionInputs, StandardFactors
+from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, StandardFactors
+from solvers.scuffing.load_factors.results import LoadFactors
 from solvers.scuffing.mesh_results import StandardStiffness, standard_stiffness
-from solvers.scuffing.standard.load_factors import LoadFactors
+from solvers.scuffing.results import LoadDistribution
 
 MM, UM, STIFFNESS = 1e-3, 1e-6, 1e9  # m, m, Pa per N/(mm um)
 RUNNING_IN_SHARE, LARGEST_RUNNING_IN = 0.075, 3.0  # y_alpha = 0.075 f <= 3 um of case-hardened and nitrided flanks
@@ -51,6 +52,12 @@ def stiffness_of(given: LoadDistributionInputs, path: PathOfContact) -> Standard
     moduli = given.pinion_material.youngs_modulus, given.wheel_material.youngs_modulus
     load = nominal_line_load(given, path) / MM
     return standard_stiffness(path, load, 2 * moduli[0] * moduli[1] / sum(moduli))
+
+
+def factors_of(inputs: ScuffingInputs, distribution: LoadDistribution) -> LoadFactors:
+    """Return the load factors of the standard for the load distribution of the pair."""
+    computed = distribution.load.face_load_factor or 1.0
+    return load_factors(inputs.distribution, distribution.path_of_contact, inputs.standard, computed)
 
 
 def load_factors(

@@ -1,0 +1,1 @@
+"""Load factors of the standard, for the checks by the standard of scuffing and micropitting."""
