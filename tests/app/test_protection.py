@@ -75,7 +75,7 @@ def test_a_body_may_be_as_large_as_the_limit(client: httpx.Client, beyond: int, 
 
 @pytest.mark.ci
 def test_large_headers(served: httpx.Client) -> None:
-    """The answer is 400; the rest of the header stays unread, so that TCP may reset the connection before it arrives."""
+    """The answer is 400; the rest of the header stays unread, and TCP may reset the connection before it arrives."""
     with suppress(httpx.ReadError, httpx.WriteError):
         response = served.get("/healthz", headers={"X-Padding": "x" * 600_000})
         assert response.status_code == 400
