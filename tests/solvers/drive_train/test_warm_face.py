@@ -18,7 +18,9 @@ from solvers.drive_train.gap.warm_face import WarmFaces, amplification
 from solvers.drive_train.inputs import DriveTrainInputs, GearBody, ShaftSection
 from solvers.drive_train.unit_heat import WarmUnit, warm_unit
 from solvers.errors import InvalidInput, NoSolution
+from solvers.heat_balance.convection import face_convection, recovery_rise
 from solvers.heat_balance.inputs import FaceReading
+from solvers.heat_balance.losses import impact_rise
 from solvers.heat_balance.rings import Response
 from tests.support.changes import changed
 from tests.support.drive_trains import CELSIUS
@@ -78,6 +80,38 @@ def test_the_parts_of_the_worked_example() -> None:
     for gear, grown in ((0, 5.20), (1, 4.21)):
         assert growth_per_skew(loop, warm, gear) == pytest.approx(grown * MICRON, rel=0.005)
     assert face_slope(loop.gas_leads[0]) == pytest.approx(-4.02 * MICRON, abs=0.1 * MICRON)
+
+
+def test_the_heat_of_the_worked_example() -> None:
+    """Source, to oil, to mist, by faces and ends of teeth, into the shafts [W], and the coefficients behind them."""
+    faces, face = loop_of(example()).faces, example().face
+    assert face is not None
+    along, network, width = face.along, faces.network, 0.2
+    weights = faces.mass.sum(axis=0)
+    wanted = ((13816, 13488, 417, 121, -210), (14416, 13052, 484, 900, -20))
+    coefficients = ((251.14, 614.2, 7.542), (556.19, 473.0, 7.045))
+    for gear, (powers, (air, disc, rise)) in enumerate(zip(wanted, coefficients, strict=True)):
+        wheel, body = network.gears[gear], faces.responses[gear]
+        flanks, teeth, mist = along.flanks[gear], along.bodies[gear], along.mist
+        recovered = recovery_rise(wheel.flanks.speed, wheel.tip_radius)
+        rim = network.mist_convection_factor * wheel.rim / (2 * width)
+        face_transfer = network.mist_convection_factor * face_convection(wheel.flanks.speed, wheel.tip_radius)
+        assert (rim, face_transfer, recovered) == pytest.approx((air, disc, rise), rel=2e-4)
+        share = network.mesh.share_to_pinion if gear == 0 else 1 - network.mesh.share_to_pinion
+        source = share * along.mesh_power + network.pumping_to_teeth * wheel.pumping
+        impact = impact_rise(network.oil, network.spray.velocity, network.spray.jet)
+        side = np.array([network.cooling(gear, 0 * loop_of(example()).rises + rise).conductance for rise in flanks])
+        side, tooth = side / (2 * width), wheel.to_body / width
+        oil = weights @ (side * (flanks - impact) + side * tooth / (side + tooth) * (teeth - impact))
+        to_mist = weights @ (rim * (flanks + teeth - 2 * (mist + recovered)))
+        inner = np.maximum(faces.rotors[gear].shaft_radii, faces.rotors[gear].geometry.root_radius)
+        ring = face_transfer * np.pi * (wheel.tip_radius**2 - inner**2) * (teeth[[0, -1]] - mist - recovered / 2)
+        sources = faces.sources(gear, teeth, mist)
+        by_faces = body.to_air @ sources + ring.sum()
+        shafts = float((body.to_journals @ sources).sum())
+        found = (source, float(oil), float(to_mist), float(by_faces), shafts)
+        assert sum(found[1:]) == pytest.approx(source, rel=1e-9)
+        assert found == pytest.approx(powers, abs=25)  # the mist is 0.1 K warmer than in the example
 
 
 def growth_per_skew(loop: WarmFaces, warm: WarmUnit, gear: int) -> float:
