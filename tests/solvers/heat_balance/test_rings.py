@@ -60,9 +60,10 @@ def test_uniform_and_linear_temperatures_are_free_of_stress(geometry: RotorGeome
     rings = rings_of(geometry)
     z, r, size = rings.z, rings.r, np.ptp(rings.z) + geometry.root_radius
     radial, axial = rings.growth(np.stack([np.full(z.size, 1.0), z], axis=1))
+    close = 1e-9 * size  # rounding times the condition of the thinnest discs: 1.3e-10 was the most of 100 draws
     for k, (wide, long) in enumerate(((r, z), (z * r, (z**2 - r**2) / 2))):
-        assert radial[:, k] == pytest.approx(wide, abs=1e-10 * size)
-        assert np.ptp(axial[:, k] - long) < 1e-10 * size
+        assert radial[:, k] == pytest.approx(wide, abs=close)
+        assert np.ptp(axial[:, k] - long) < close
 
 
 @examples(FEW, MANY, rotors(), st.integers(0, 10**6))
