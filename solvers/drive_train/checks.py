@@ -90,19 +90,26 @@ def _check_gear_body(inputs: DriveTrainInputs, path: PathOfContact, index: int, 
 
 def _check_jets(inputs: DriveTrainInputs) -> None:
     jets, width = inputs.mesh.cooling.jet_distribution, inputs.mesh.distribution.gears.face_width
-    field = "mesh.cooling.jet_distribution"
     position = np.asarray(jets.position)
+    message = None
     if position.size != len(jets.weight) or np.any(np.diff(position) <= 0.0):
         message = "give rising positions, and one weight for each"
-        raise InvalidInput("jet_distribution", message, field)
-    readings = [reading.position for reading in inputs.mesh.cooling.measured.face]
-    for values, code, place in (
-        (position, "jet_distribution", field),
-        (readings, "outside", "mesh.cooling.measured.face"),
-    ):
-        if any(value > width * (1 + ROUNDING) for value in values):
-            message = f"a position lies outside the face, which is {1e3 * width:.4g} mm wide"
-            raise InvalidInput(code, message, place)
+    elif np.any(position > width * (1 + ROUNDING)):
+        message = f"a position lies outside the face, which is {1e3 * width:.4g} mm wide"
+    if message is not None:
+        raise InvalidInput("jet_distribution", message, "mesh.cooling.jet_distribution")
+
+
+def check_readings(inputs: DriveTrainInputs) -> None:
+    """Raise InvalidInput `reading_outside` unless every reading along the face is on the face of a helix there is."""
+    gears = inputs.mesh.distribution.gears
+    for k, reading in enumerate(inputs.mesh.cooling.measured.face):
+        field = f"mesh.cooling.measured.face.{k}"
+        if reading.position > gears.face_width * (1 + ROUNDING):
+            message = f"the reading lies outside the face, which is {1e3 * gears.face_width:.4g} mm wide"
+            raise InvalidInput("reading_outside", message, f"{field}.position")
+        if reading.helix > gears.helices:
+            raise InvalidInput("reading_outside", "the gears have one helix", f"{field}.helix")
 
 
 def check_bearing_count(shaft: Shaft, name: str) -> None:

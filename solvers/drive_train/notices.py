@@ -165,11 +165,11 @@ def helix_notices(
 
 def face_heat_notices(inputs: DriveTrainInputs, path: PathOfContact, faces: Sequence[FaceHeat]) -> Iterator[Notice]:
     """Warn where heat multiplies misalignment, and where rotors or free slices are taken as stiffer or softer."""
-    unstable = next((number for number, face in enumerate(faces, 1) if face.largest_eigenvalue >= 1.0), None)
-    if unstable is not None:
+    loop = max((face.largest_eigenvalue for face in faces), default=0.0)
+    if loop >= 1.0:
         message = (
-            "one end of the face takes the load and heats itself further; more oil on the flanks, a stiffer wheel or "
-            "less friction"
+            f"thermally unstable: loop gain {loop:.3g}, stable below 1. One end of the face takes the load and heats "
+            "itself further; give more oil on the flanks, a stiffer wheel or less friction"
         )
         yield Notice("thermally_unstable", message, "cooling", rank="invalid")
     largest = max((face.amplification or 0.0 for face in faces), default=0.0)

@@ -15,7 +15,7 @@ import numpy as np
 
 from solvers import heat_balance
 from solvers.arrays import FloatArray
-from solvers.drive_train.checks import NAMES, check_bearing_count
+from solvers.drive_train.checks import NAMES, check_bearing_count, check_readings
 from solvers.drive_train.elements import coupling_results, hubs_of
 from solvers.drive_train.gap.balance import Equilibrium
 from solvers.drive_train.gap.face_curves import face_mean
@@ -116,6 +116,7 @@ def warm_unit(inputs: DriveTrainInputs, start: FloatArray | None = None) -> Warm
     if not readings:
         return _settled(inputs, start)
     cooling.check()
+    check_readings(inputs)
     if inputs.face_heat == "uniform":
         message = "readings along the face need the temperatures along it; take profile as face_heat"
         raise InvalidInput("face_heat_needs_balance", message, "face_heat")

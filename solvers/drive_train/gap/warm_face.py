@@ -89,7 +89,7 @@ class WarmFaces:
         load = self.relative_load(equilibrium)
         for _ in range(MOST_STEPS):
             along = self.faces.solve(self.at_nodes(load), along)
-            prepared = self._heated(along)
+            prepared = self.heated(along)
             equilibrium = settle(self.inputs, prepared, equilibrium.gap)
             change = self.relative_load(equilibrium) - load
             largest = float(np.abs(change).max())
@@ -115,17 +115,12 @@ class WarmFaces:
         )
         raise NoSolution("heat_balance", message, {"change_of_load": largest})
 
-    def load_after(self, load: FloatArray, start: Equilibrium) -> FloatArray:
-        """Relative line load (faces, stations) that the temperatures of a load bring about (Eq. W7)."""
-        prepared = self._heated(self.faces.solve(self.at_nodes(load)))
-        return self.relative_load(settle(self.inputs, prepared, start.gap))
-
     def even(self, start: Equilibrium) -> tuple[Prepared, Equilibrium, FloatArray]:
         """The unit whose flanks are heated as by an even load: what the loop adds is the difference from it.
 
         Also return its flank temperatures (gears, faces, stations) [K].
         """
-        prepared = self._heated(self._even)
+        prepared = self.heated(self._even)
         return prepared, settle(self.inputs, prepared, start.gap), self._absolute(self._even.flanks)
 
     def relative_load(self, equilibrium: Equilibrium) -> FloatArray:
@@ -261,8 +256,8 @@ class WarmFaces:
         pairs = zip(self.ordered(growth), position, strict=True)
         return np.array([np.trapezoid(own, y) / np.ptp(y) - own for own, y in pairs])
 
-    def _heated(self, along: Along) -> Prepared:
-        """Return the unit with the gaps and the flanks of these temperatures."""
+    def heated(self, along: Along) -> Prepared:
+        """Return the unit with the gaps and the flanks of these temperatures (Eq. W7)."""
         before, own, even = self.prepared, self._own_leads(along), self._own_leads(self._even)
         flanks = self._absolute(along.flanks)
         points = np.linspace(0.0, before.unit.stations[-1], before.thermals[0].lead.size)
@@ -324,7 +319,7 @@ class WarmFaces:
                 np.interp(
                     one.position,
                     stations,
-                    rows[one.place][NAMES_OF_SHAFTS.index(one.gear), min(one.helix, len(load)) - 1],
+                    rows[one.place][NAMES_OF_SHAFTS.index(one.gear), one.helix - 1],
                 )
                 - one.temperature
                 for one in readings

@@ -16,6 +16,7 @@ from solvers.drive_train.gap.face_curves import face_slope
 from solvers.drive_train.gap.thermal_lead import thermal_lead
 from solvers.drive_train.gap.warm_face import WarmFaces, amplification
 from solvers.drive_train.inputs import DriveTrainInputs, GearBody, ShaftSection
+from solvers.drive_train.prepared import settle
 from solvers.drive_train.unit_heat import WarmUnit, warm_unit
 from solvers.errors import InvalidInput, NoSolution
 from solvers.heat_balance.convection import face_convection, recovery_rise
@@ -342,7 +343,8 @@ def test_two_opposite_starts_and_substitution_reach_the_same_load() -> None:
     errors = []
     tried = load + 1e-3 * np.linspace(-1.0, 1.0, 41)
     for _ in range(7):
-        tried = loop.load_after(tried, face.equilibrium)
+        heated = loop.heated(loop.faces.solve(loop.at_nodes(tried)))
+        tried = loop.relative_load(settle(loop.inputs, heated, face.equilibrium.gap))
         errors.append(float(np.abs(tried - load).max()))
     assert errors[-1] / errors[-2] == pytest.approx(face.amplification.largest_eigenvalue, abs=0.01)
 
@@ -382,6 +384,8 @@ def test_amplification_is_that_of_the_answer() -> None:
             "jet_distribution",
         ),
         ({"mesh.temperatures.bulk": 360.0, "face_heat": "profile"}, "face_heat_needs_balance"),
+        ({f"{COOLING}.measured.face": (FaceReading("pinion", "body", 0.3, 350.0),)}, "reading_outside"),
+        ({f"{COOLING}.measured.face": (FaceReading("pinion", "body", 0.1, 350.0, helix=2),)}, "reading_outside"),
     ],
 )
 def test_refusals(values: dict[str, Any], code: str) -> None:
