@@ -38,7 +38,7 @@ def behind(*answers: httpx.Response) -> Tribodrive:
     return Tribodrive(transport=httpx.MockTransport(lambda _: next(left)))
 
 
-def test_every_endpoint_has_its_method(server: str) -> None:
+def test_every_endpoint_has_its_method(served: httpx.Client) -> None:
     asked: list[str] = []
 
     def note(request: httpx.Request) -> httpx.Response:
@@ -50,7 +50,7 @@ def test_every_endpoint_has_its_method(server: str) -> None:
         answer = getattr(client, name)({})
         if isinstance(answer, Study):
             list(answer)
-    paths = httpx.get(f"{server}/openapi.json").json()["paths"]
+    paths = served.get("/openapi.json").json()["paths"]
     solved = {path for path, methods in paths.items() if "post" in methods and "{" not in path}
     assert set(asked) == solved - {"/v1/rexs", "/v1/rexs/results", "/rexs"}
 

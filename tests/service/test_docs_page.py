@@ -12,12 +12,12 @@ from app.examples import examples
 pytestmark = pytest.mark.service
 
 
-def test_docs_page_works_offline(visit: Callable[..., Page], server: str) -> None:
+def test_docs_page_works_offline(visit: Callable[..., Page], served: httpx.Client) -> None:
     page, complaints = visit("/"), list[str]()
     page.on("console", lambda said: complaints.append(said.text) if said.type == "error" else None)
     page.goto("/docs")
     page.wait_for_selector(".opblock-post")
-    operations = httpx.get(f"{server}/openapi.json").json()["paths"].values()
+    operations = served.get("/openapi.json").json()["paths"].values()
     posts = sum("post" in operation for operation in operations)
     assert page.locator(".opblock-post").count() == posts > len(CALCULATIONS)
     assert complaints == []

@@ -138,7 +138,7 @@ def test_full_queue_and_recovery(address: str) -> None:
 
 
 def test_health_while_all_workers_are_busy(address: str) -> None:
-    with ThreadPoolExecutor(2) as pool, httpx.Client(base_url=address) as client:
+    with ThreadPoolExecutor(2) as pool, httpx.Client(base_url=address, timeout=PATIENCE_S) as client:
         busy = [pool.submit(httpx.post, f"{address}/sleep/3", timeout=20) for _ in range(2)]
         answered = 0
         while not all(each.done() for each in busy):

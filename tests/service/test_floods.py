@@ -13,6 +13,7 @@ import httpx
 import pytest
 
 from tests.support.server import (
+    PATIENCE_S,
     Server,
     answer_to,
     connected,
@@ -100,7 +101,7 @@ def test_many_unknown_fields_do_not_hold_up_the_others(address: str) -> None:
     def load() -> None:
         answers.append(httpx.post(f"{address}/v1/coupling", content=body, headers=JSON, timeout=30))
 
-    with meanwhile(load, load, load, load), httpx.Client(base_url=address) as client:
+    with meanwhile(load, load, load, load), httpx.Client(base_url=address, timeout=PATIENCE_S) as client:
         for _ in range(100):
             started = time.monotonic()
             assert client.get("/healthz").status_code == 200

@@ -46,10 +46,10 @@ def service(log: Path) -> Iterator[Server]:
 
 def test_one_json_line_a_request(address: str, log: Path) -> None:
     before = len(lines_of(log))
-    httpx.get(f"{address}/healthz", headers={"X-Request-ID": "first"})
-    httpx.post(f"{address}/v1/coupling", json={"secret": 1}, headers={"X-Request-ID": "second"})
-    httpx.get(f"{address}/nothing?token=hidden", headers={"X-Request-ID": 'a"b'})
-    httpx.head(f"{address}/healthz")
+    httpx.get(f"{address}/healthz", headers={"X-Request-ID": "first"}, timeout=PATIENCE_S)
+    httpx.post(f"{address}/v1/coupling", json={"secret": 1}, headers={"X-Request-ID": "second"}, timeout=PATIENCE_S)
+    httpx.get(f"{address}/nothing?token=hidden", headers={"X-Request-ID": 'a"b'}, timeout=PATIENCE_S)
+    httpx.head(f"{address}/healthz", timeout=PATIENCE_S)
     wait_until(lambda: len(lines_of(log)) >= before + 4)
     mine = lines_of(log)[before:]
     assert [(line["method"], line["endpoint"], line["status"]) for line in mine] == [
@@ -66,7 +66,7 @@ def test_one_json_line_a_request(address: str, log: Path) -> None:
 
 
 def test_the_log_has_the_cause_from_the_worker(address: str, log: Path) -> None:
-    assert httpx.post(f"{address}/fail").status_code == 500
+    assert httpx.post(f"{address}/fail", timeout=PATIENCE_S).status_code == 500
     wait_until(lambda: "ZeroDivisionError: deep inside" in log.read_text("utf-8"))
     assert "in fail_deep_inside" in log.read_text("utf-8")
 
@@ -74,13 +74,13 @@ def test_the_log_has_the_cause_from_the_worker(address: str, log: Path) -> None:
 def test_the_address_of_clients_may_be_left_out(tmp_path: Path) -> None:
     log = tmp_path / "log"
     with faulty_server(log=log, workers=1, log_clients=False) as (_, address):
-        httpx.get(f"{address}/healthz")
+        httpx.get(f"{address}/healthz", timeout=PATIENCE_S)
     assert [line["client"] for line in lines_of(log)] == [None]
     assert "127.0.0.1" not in log.read_text("utf-8").partition("Uvicorn running")[2].partition("\n")[2]
 
 
 def test_an_internal_error_is_a_problem_logged_and_counted(address: str, log: Path) -> None:
-    bug = httpx.post(f"{address}/bug")
+    bug = httpx.post(f"{address}/bug", timeout=PATIENCE_S)
     assert bug.status_code == 500
     assert bug.headers["content-type"] == "application/problem+json"
     assert bug.headers["x-content-type-options"] == "nosniff"
@@ -91,7 +91,10 @@ def test_an_internal_error_is_a_problem_logged_and_counted(address: str, log: Pa
 
     wait_until(lambda: len(mine()) == 1)
     assert [(line["method"], line["endpoint"], line["status"]) for line in mine()] == [("POST", "/bug", 500)]
-    assert 'tribodrive_requests_total{endpoint="/bug",status="500"} 1.0' in httpx.get(f"{address}/metrics").text
+    assert (
+        'tribodrive_requests_total{endpoint="/bug",status="500"} 1.0'
+        in httpx.get(f"{address}/metrics", timeout=PATIENCE_S).text
+    )
     assert "RuntimeError: a bug" in log.read_text("utf-8")
 
 
@@ -102,7 +105,7 @@ def test_what_the_server_itself_refuses_is_plain_text(address: str) -> None:
 
 
 def test_a_warning_of_a_worker_is_logged(address: str, log: Path) -> None:
-    assert httpx.post(f"{address}/warn").status_code == 200
+    assert httpx.post(f"{address}/warn", timeout=PATIENCE_S).status_code == 200
     wait_until(lambda: "a worker said: " in log.read_text("utf-8"))
     assert "UserWarning: deep inside" in log.read_text("utf-8")
 
@@ -117,7 +120,7 @@ def test_a_log_that_nobody_reads_costs_lines_and_nothing_else() -> None:
                 connection.request("GET", "/healthz")
                 assert connection.getresponse().read() == b'{"status":"ok"}'
             connection.close()
-            metrics = httpx.get(f"{address}/metrics").text.splitlines()
+            metrics = httpx.get(f"{address}/metrics", timeout=PATIENCE_S).text.splitlines()
             dropped = next(line for line in metrics if line.startswith("tribodrive_log_lines_dropped_total"))
             assert float(dropped.split()[1]) > 100
             process.terminate()

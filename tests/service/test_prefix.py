@@ -18,7 +18,7 @@ from app.pages.study_links import study_links
 from app.pages.templating import example_link, examples_of, page_path
 from tests.rexs.units import turbo_unit
 from tests.support.proxy import running_proxy
-from tests.support.server import ROOT, running_server
+from tests.support.server import PATIENCE_S, ROOT, running_server
 
 PREFIX = "/tribodrive"
 FILES = {f"{PREFIX}/rexs", f"{PREFIX}/case"}
@@ -124,7 +124,7 @@ def test_redirects_files_and_documents(proxies: dict[str, str], name: str) -> No
 
 def test_the_prefix_itself_is_the_start(service: str) -> None:
     for path in (PREFIX, f"{PREFIX}/", "/"):
-        answer = httpx.get(service + path)
+        answer = httpx.get(service + path, timeout=PATIENCE_S)
         assert answer.status_code == 200
         assert f'href="{PREFIX}/docs"' in answer.text
 
@@ -141,7 +141,10 @@ def test_only_known_hosts_are_printed(service: str) -> None:
     assert f'<a href="{PREFIX}/coupling?' in printed["evil.example"]
     assert f"curl -s http://tribology.example{PREFIX}/v1/coupling" in printed["tribology.example"]
     assert f'<a href="http://localhost:8123{PREFIX}/coupling?' in printed["localhost:8123"]
-    assert httpx.get(f"{service}{PREFIX}/coupling/", headers={"Host": "evil.example"}).status_code == 404
+    assert (
+        httpx.get(f"{service}{PREFIX}/coupling/", headers={"Host": "evil.example"}, timeout=PATIENCE_S).status_code
+        == 404
+    )
 
 
 @pytest.mark.parametrize("name", ["passed", "stripped"])

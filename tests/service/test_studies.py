@@ -23,6 +23,7 @@ from app.schema.fields import leaves
 from tests.support.browsing import address_of
 from tests.support.server import (
     HANGING,
+    PATIENCE_S,
     Server,
     descendants,
     descriptors,
@@ -139,7 +140,7 @@ def test_a_stopped_worker_costs_at_most_the_point_that_it_solves(service: Server
 
 def test_a_third_study_waits_outside(address: str) -> None:
     with running_study(address, loads(20_000)), running_study(address, loads(20_000)):
-        refused = httpx.post(address + SWEEP, json=loads(2))
+        refused = httpx.post(address + SWEEP, json=loads(2), timeout=PATIENCE_S)
         assert refused.status_code == 503
         assert refused.json()["type"].endswith("studies_full")
         assert int(refused.headers["retry-after"]) >= 1
@@ -152,7 +153,7 @@ def test_a_full_queue_refuses_a_study_before_its_first_line(address: str) -> Non
     with ThreadPoolExecutor(4) as pool:
         busy = [pool.submit(httpx.post, f"{address}/sleep/5", timeout=20) for _ in range(4)]
         wait_for_metric(address, "tribodrive_calculations_waiting", 2)
-        refused = httpx.post(address + SWEEP, json=loads(2))
+        refused = httpx.post(address + SWEEP, json=loads(2), timeout=PATIENCE_S)
         assert refused.status_code == 503
         assert refused.json()["type"].endswith("queue_full")
         assert {each.result().status_code for each in busy} <= {200, 504}
