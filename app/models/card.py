@@ -30,7 +30,7 @@ class Beside(NamedTuple):
     """Values of several methods side by side: title, names of the methods, rows, and the sentence why they differ.
 
     A row is its label and one path for each method; empty where a method has no such value. The table is shown where
-    the section `asked` of the answer is not null.
+    the section `asked` of the answer is not null, and the section `unless` is not there.
     """
 
     title: str
@@ -38,6 +38,7 @@ class Beside(NamedTuple):
     rows: tuple[tuple[str, tuple[str, ...]], ...]
     why: str
     asked: str
+    unless: str
 
 
 class FileResult(NamedTuple):

@@ -262,8 +262,9 @@ def beside(response: Response) -> list[BesideTable]:
     values = values_by_path(response)
     given = {f"inputs.{path}": value for path, value in resolved(response).items()} if response.inputs else {}
     tables = []
-    for title, methods, rows, why, asked in words_of(response).beside:
-        if not any(path.startswith(f"{asked}.") for path in values):
+    for title, methods, rows, why, asked, unless in words_of(response).beside:
+        shown_elsewhere = unless and any(path.startswith(f"{unless}.") for path in values)
+        if shown_elsewhere or not any(path.startswith(f"{asked}.") for path in values):
             continue
         lines = []
         for label, paths in rows:

@@ -8,6 +8,8 @@ from collections.abc import Callable
 from functools import cache, partial
 from math import copysign, pi
 
+import numpy as np
+
 from benchmarks.published import standard
 from benchmarks.published.standard import TURBINE
 from benchmarks.published.statement import Says, Statement
@@ -15,9 +17,18 @@ from solvers.gears.inputs import GROUND_FILLET, GearPairInputs, GearTeeth
 from solvers.gears.pair import meshing_path
 from solvers.materials import Solid
 from solvers.oils import OilSheet
-from solvers.scuffing.inputs import Load, LoadDistributionInputs, StandardFactors
+from solvers.scuffing.inputs import Load, LoadDistributionInputs
 from solvers.scuffing.micropitting import oil_test
-from solvers.scuffing.micropitting.standard import StandardFilms, solve_standard
+from solvers.scuffing.micropitting.film import Conditions, films
+from solvers.scuffing.micropitting.mean_values import bulk_temperature, loss_factor, mean_friction
+from solvers.scuffing.micropitting.standard import (
+    StandardFilms,
+    characteristic_points,
+    contacts_under,
+    load_sharing,
+    solve_standard,
+)
+from solvers.scuffing.thermal.practice import OIL_SUPPLY_FACTOR
 
 REPORT = "ISO/TR 15144-1:2014, secondary source"
 FVA = "report of an FVA program"
@@ -86,16 +97,30 @@ def of_the_test() -> StandardFilms:
 def _load_at_a() -> float:
     """Line load of the test gears at A [N/mm]."""
     films, path = of_the_test(), meshing_path(oil_test.GEARS)
-    torque = oil_test.LOAD_FACTOR * oil_test.STAGE_TORQUE[10]
+    torque = oil_test.LINE_LOAD_FACTOR * oil_test.STAGE_TORQUE[10]
     return float(films.force_ratio[0]) * torque / path.pair.pinion.base_radius / oil_test.GEARS.face_width * 1e-3
 
 
-def turbine(face_and_transverse: float) -> StandardFilms:
-    """Return the films of the turbine stage with K_A 1.25 and K_v 1.092, for K_Hbeta K_Halpha."""
-    given = standard.turbine(StandardFactors()).given
-    torque = 1.25 * 1.092 * face_and_transverse * given.load.torque
-    path = meshing_path(given.gears)
-    return solve_standard(given, path, mineral(220, 19.0, 890.0), 80 + ZERO, "spray", standard.TURBINE_GRADE, torque)
+@cache
+def turbine() -> StandardFilms:
+    """Return the films of the turbine stage with K_A 1.25 and the load factors that make its printed friction.
+
+    The bulk temperature has the tip relief factor X_Ca of relieved flanks of class 6 (formula 100), although the load
+    sharing has none: 1.053 is printed, and X_Ca = 1 makes 0.988.
+    """
+    mesh = standard.turbine()
+    given, grade = mesh.given, mesh.grade
+    torque = 1.25 * mesh.factors.product * given.load.torque
+    path, oil, warm = meshing_path(given.gears), mineral(220, 19.0, 890.0), 80 + ZERO
+    friction = mean_friction(given, path, oil, warm, torque)
+    rise = bulk_temperature(given, path, warm, "spray", friction) - warm
+    longer = max(path.end - path.pitch_point, path.pitch_point - path.start) / path.plane.base_pitch
+    bulk = warm + rise / (1.0 + 0.24 * longer + 0.71 * longer**2)
+    x = np.array([*characteristic_points(path).values()])
+    sharing = load_sharing(path, x, grade)
+    contacts = contacts_under(given, path, x, sharing, torque)
+    conditions = Conditions(oil, bulk, friction, given.pinion_material, given.wheel_material)
+    return StandardFilms(friction, bulk, loss_factor(path), sharing, contacts, films(conditions, contacts))
 
 
 def _pressure(solve: Callable[[], StandardFilms], point: str) -> float:
@@ -138,12 +163,14 @@ STATEMENTS: tuple[Statement, ...] = (
     Says(FVA, "bulk temperature, FZG C gears").equals(72.1, "°C", lambda: fzg_c().bulk - ZERO, 4e-3),
     Says(TURBINE, "torque of the test gears at stage 10").prints("265.1", "N m", lambda: oil_test.STAGE_TORQUE[10]),
     Says(TURBINE, "line load of the test gears at A, stage 10").prints("236.3", "N/mm", _load_at_a),
-    # The report solves the contact of the test gears by itself; ours has one factor on the load.
-    Says(TURBINE, "bulk temperature of the test gears, VG 220, stage 10").equals(
-        127.7, "°C", lambda: of_the_test().bulk - ZERO, 4e-3
+    Says(TURBINE, "lubrication system factor of the test gears").prints(
+        "1.2", "-", lambda: OIL_SUPPLY_FACTOR[oil_test.SUPPLY]
     ),
-    Says(TURBINE, "contact temperature of the test gears at A, VG 220, stage 10").equals(
-        251.7, "°C", lambda: of_the_test().bulk + float(of_the_test().films.flash[0]) - ZERO, 6e-3
+    Says(TURBINE, "bulk temperature of the test gears, VG 220, stage 10").prints(
+        "127.7", "°C", lambda: of_the_test().bulk - ZERO
+    ),
+    Says(TURBINE, "contact temperature of the test gears at A, VG 220, stage 10").prints(
+        "251.7", "°C", lambda: of_the_test().bulk + float(of_the_test().films.flash[0]) - ZERO
     ),
     Says(TURBINE, "film of the test gears at A, VG 220, stage 10").prints(
         "0.051", "µm", lambda: float(of_the_test().films.film[0]) * 1e6
@@ -154,14 +181,15 @@ STATEMENTS: tuple[Statement, ...] = (
     Says(TURBINE, "permissible film ratio, VG 220, stage 10").prints(
         "0.143", "-", lambda: oil_test.PERMISSIBLE_SHARE * float(of_the_test().films.ratio.min())
     ),
+    Says(TURBINE, "transverse contact ratio of the stage").prints(
+        "1.463", "-", lambda: meshing_path(standard.TURBINE_STAGE).transverse_contact_ratio
+    ),
     Says(TURBINE, "load sharing factor at A of the stage").prints(
-        "0.889", "-", lambda: float(turbine(1.0).force_ratio[0])
+        "0.889", "-", lambda: float(turbine().force_ratio[0])
     ),
-    Says(TURBINE, "thinnest film ratio of the stage, least with K_Hα K_Hβ = 1.24").below(
-        1.053, "-", lambda: float(turbine(1.24).films.ratio.min())
-    ),
-    Says(TURBINE, "thinnest film ratio of the stage, largest with K_Hα K_Hβ = 1").above(
-        1.053, "-", lambda: float(turbine(1.0).films.ratio.min())
+    # The K_Halpha K_Hbeta of the printed friction is known to 0.6 %, which is 0.2 % of the film.
+    Says(TURBINE, "thinnest film ratio of the stage").equals(
+        1.053, "-", lambda: float(turbine().films.ratio.min()), 5e-3
     ),
     Says(TURBINE, "safety factor of the printed film ratio").equals(
         7.36, "-", lambda: 1.053 / (oil_test.PERMISSIBLE_SHARE * float(of_the_test().films.ratio.min())), 5e-3

@@ -8,6 +8,8 @@ from solvers.heat_balance.results import CoolingInForce
 from solvers.lubricants import OilInUse, oil_in_use
 from solvers.quantity import quantity, record
 from solvers.scuffing.inputs import TS_6336_20
+from solvers.scuffing.load_factors.method_b import film_grade, standard_grade
+from solvers.scuffing.load_factors.results import FilmGrade, StandardGrade
 from solvers.scuffing.results import LoadDistribution
 from solvers.scuffing.safety_results import BulkInForce
 
@@ -67,7 +69,7 @@ class DerivedTemperatures:
         "bulk temperature used",
         "θ_M",
         unit="c",
-        text="`bulk_method` says how it came about; null without an oil",
+        text="`bulk_method` says how it came about; null without an oil, unless given",
     )
     scuffing: float | None = quantity(
         "scuffing temperature used", "θ_S", unit="c", text="given or by a test; null with neither", equation="R9"
@@ -100,6 +102,7 @@ class Derived:
     thermal: DerivedHeat = quantity("heat used")
     lubricant: OilInUse | None = quantity("oil used", text="of the gears, as it enters the contact; null with none")
     temperatures: DerivedTemperatures = quantity("temperatures used")
+    standard: StandardGrade = quantity("checks by the standard, as used")
     cooling: CoolingInForce | None = quantity("cooling used", default=None, text="null without a heat balance")
     total_face_width: float | None = quantity(
         "total face width used",
@@ -111,6 +114,9 @@ class Derived:
     )
     tolerances: FlankTolerances | None = quantity(
         "tolerances of the quality class", text="left out without a quality class", default=None, left_out=True
+    )
+    micropitting: FilmGrade | None = quantity(
+        "check against micropitting, as used", text="left out without one", default=None, left_out=True
     )
 
 
@@ -148,9 +154,11 @@ def derived(inputs: DriveTrainInputs, mesh: LoadDistribution, bulk: BulkInForce,
             inputs.mesh.temperatures.scuffing,
             inputs.mesh.temperatures.lubricant_factor,
         ),
+        standard=standard_grade(inputs.mesh),
         cooling=None if heat is None else cooling_in_force(inputs.mesh.cooling, heat),
         total_face_width=lengths.total_face_width,
         tolerances=lengths.tolerances,
+        micropitting=film_grade(inputs.mesh),
     )
 
 

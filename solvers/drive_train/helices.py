@@ -55,10 +55,12 @@ def loaded_face(
         temperatures = replace(inputs.mesh.temperatures, flanks=flanks, bulk=sum(flanks) / 2)
         inputs = replace(inputs, mesh=replace(inputs.mesh, temperatures=temperatures))
     spread = distribution(inputs.mesh.distribution, equilibrium.meshes[face].prepared, equilibrium.balances[face])
-    contact, spread, flash, _, rule, ran = in_force(contact_of(inputs), spread)
+    asked = contact_of(inputs)
+    contact, spread, flash, _, rule, ran = in_force(asked, spread)
     inputs = replace(inputs, mesh=contact)
     thermal = prepared.thermals[face]
-    flank = flank_heat(inputs, spread, flash, FaceBulk(inputs, thermal, _deviations(thermal, rule)))
+    bulk = FaceBulk(inputs, thermal, _deviations(thermal, rule))
+    flank = flank_heat(inputs, spread, flash, bulk, asked.temperatures.scuffing_test)
     here = system.frame.faces[face]
     return LoadedFace(
         inputs=inputs,
@@ -77,6 +79,7 @@ def loaded_face(
             safety=flank.safety,
             pinion_flank=None if flanks is None else flanks[0],
             wheel_flank=None if flanks is None else flanks[1],
+            bulk=inputs.mesh.temperatures.bulk,
             micropitting=flank.micropitting.answer,
             wear=wear_asked_for(inputs.mesh.micropitting, spread),
             mesh=spread,

@@ -140,7 +140,7 @@ def helix_notices(
             "along the floating shaft"
         )
         yield Notice("unequal_shares", message, "floating_shaft")
-        if ran.bulk_method == "given" and inputs.mesh.known_oil is not None:
+        if ran.bulk_method == "given" and inputs.mesh.temperatures.bulk is not None:
             message = (
                 "the helices carry unequal loads and do not have the one bulk temperature that is given: the hotter "
                 "one is less safe than computed"

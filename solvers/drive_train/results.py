@@ -17,6 +17,7 @@ from solvers.quantity import computed, described, quantity, record
 from solvers.scuffing.inputs import ISO_TR_15144, TS_6336_20
 from solvers.scuffing.micropitting.results import Micropitting, Wear
 from solvers.scuffing.results import LoadDistribution, Place
+from solvers.scuffing.standard.results import ScuffingStandard
 from solvers.sources import ISO_6336, REYNOLDS
 
 
@@ -254,7 +255,7 @@ class FlashPlaces:
         "largest contact temperature",
         "θ_B,max",
         unit="c",
-        text="by Blok over the flank and the feature line; null without an oil",
+        text="by Blok over the flank and the feature line; null without a bulk temperature",
     )
     friction_coefficient: float | None = quantity(
         "mean coefficient of friction of the flash temperature",
@@ -270,7 +271,7 @@ class TrainSafety:
     """Safety factors by Blok's method and by thermal EHL, on the feature line and over the flank.
 
     Over the flank, thermal EHL is solved at the places that decide. A factor that is not known is None. If a factor is
-    not known, `minimum` is None too.
+    not known, `minimum` is None too. `standard` never counts for `minimum`.
     """
 
     blok_feature: float | None = quantity("safety factor on the feature line (flash temperature method)", "S_B,1")
@@ -284,6 +285,12 @@ class TrainSafety:
     )
     minimum: float | None = quantity(
         "safety factor against scuffing", "S_B", text="smallest of the safety factors; null if one is unknown"
+    )
+    standard: ScuffingStandard | None = quantity(
+        "scuffing by the standard",
+        text="flash and integral temperature method with their own temperatures and K_Hβ of this face, beside the "
+        "local check; null without an oil, load or motion",
+        default=None,
     )
 
 
@@ -361,7 +368,7 @@ class FlankMaps:
         "contact temperature by Blok",
         "θ_B",
         unit="c",
-        text="bulk and flash; null without an oil",
+        text="bulk and flash; null without a bulk temperature",
         axis=("profile_fraction", "face_fraction"),
         gaps=True,
     )
@@ -401,6 +408,13 @@ class HelixResult:
         text="mean over its face; where temperatures are uniform along the face, as if the other helix carried the "
         "same; null without a heat balance",
         equation="D24",
+    )
+    bulk: float | None = quantity(
+        "bulk temperature of the helix",
+        "θ_M",
+        unit="c",
+        text="of its contact; null without an oil, unless given",
+        equation="D15",
     )
     face_heat: FaceHeat | None = quantity(
         "temperatures along the helix", text="left out where they are uniform", default=None, left_out=True

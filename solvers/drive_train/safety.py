@@ -10,11 +10,13 @@ from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import FlashPlaces, TrainSafety
 from solvers.notices import Notice
 from solvers.scuffing.contact_slices import Peak
-from solvers.scuffing.inputs import ScuffingInputs
+from solvers.scuffing.inputs import ScuffingInputs, ScuffingTest
 from solvers.scuffing.micropitting.check import CheckedFlank, check_micropitting
 from solvers.scuffing.results import LoadDistribution, Place
 from solvers.scuffing.safety import safety_factor
 from solvers.scuffing.safety_results import ThermalPath
+from solvers.scuffing.standard.check import check_by_standard, standard_notices
+from solvers.scuffing.standard.results import ScuffingStandard
 from solvers.scuffing.thermal.blok import blok_flash
 from solvers.scuffing.thermal.flank import (
     SURVEY_POINTS,
@@ -100,10 +102,17 @@ class FaceBulk:
         return np.interp(y, np.linspace(0.0, self.inputs.mesh.distribution.gears.face_width, values.size), values)
 
 
-def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap, bulk: FaceBulk) -> FlankHeat:
+def flank_heat(
+    inputs: DriveTrainInputs,
+    mesh: LoadDistribution,
+    flash: FlashMap,
+    bulk: FaceBulk,
+    test: ScuffingTest | None,
+) -> FlankHeat:
     """Compute Blok's temperatures on the feature line and over the flank, and solve the thermal EHL (Eq. D15).
 
-    Thermal EHL is solved on the feature line and at the places of the flank that decide.
+    Thermal EHL is solved on the feature line and at the places of the flank that decide. `test` is the scuffing test as
+    asked, without the X_L of 90 C: the standard has its own.
     """
     given, plane = inputs.mesh.distribution, mesh.path_of_contact.plane
     psi = _feature_points(inputs, mesh, bulk)
@@ -118,7 +127,8 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap
         hottest = _with_line(find_hottest(given, mesh, flash, bulk), along, across, warm_feature)
         contacts = [None, None] if hottest is None else [float(warm_feature.max()), hottest.value]
     unsolved, warnings, thinnest = 0, tuple[Notice, ...](), None
-    if inputs.mesh.lubrication == "thermal_ehl" and has_bulk and hottest is not None:
+    has_film = inputs.mesh.lubrication == "thermal_ehl" and inputs.mesh.lubricant is not None
+    if has_film and has_bulk and hottest is not None:
         line = solve_line(inputs.mesh, feature)
         places = _places(inputs, mesh, flash, hottest, bulk)
         solved = [line] if places is None else [line, places.solved]
@@ -128,9 +138,11 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap
         thinnest = None if places is None else _thinnest_film(places)
         unsolved = sum(each.path.status.count(status) for each in solved for status in ("no_solution", "refused"))
     micropitting = check_micropitting(inputs.mesh, mesh, flash, thinnest, bulk if bulk.varies else None)
-    place = None
+    safety, place = None, None
     if strongest is not None and hottest is not None and strongest.value > 0.0:
         place = _place(mesh, hottest)
+    if has_bulk and inputs.mesh.temperatures.scuffing is not None:
+        safety = _safety(inputs, contacts, place, check_by_standard(inputs.mesh, mesh, test))
     return FlankHeat(
         temperature=(flash.flash + bulk(flash.y))[flash.mapped],
         flash=FlashPlaces(
@@ -140,10 +152,12 @@ def flank_heat(inputs: DriveTrainInputs, mesh: LoadDistribution, flash: FlashMap
             contact_max=contacts[1],
             friction_coefficient=inputs.mesh.distribution.friction_coefficient,
         ),
-        safety=_safety(inputs, contacts, place),
+        safety=safety,
         micropitting=micropitting,
         unsolved_points=unsolved,
-        warnings=warnings + micropitting.warnings,
+        warnings=warnings
+        + micropitting.warnings
+        + tuple(standard_notices(given, None if safety is None else safety.standard)),
     )
 
 
@@ -224,14 +238,14 @@ def _thinnest_film(places: Places) -> float | None:
     return None if unknown else float(np.nanmin(films))
 
 
-def _safety(inputs: DriveTrainInputs, hottest: list[float | None], worst: Place | None) -> TrainSafety | None:
-    temperatures = inputs.mesh.temperatures
-    if temperatures.scuffing is None or temperatures.bulk is None:
-        return None
-    limit, oil = temperatures.scuffing, temperatures.oil
+def _safety(
+    inputs: DriveTrainInputs, hottest: list[float | None], worst: Place | None, standard: ScuffingStandard | None
+) -> TrainSafety:
+    limit, oil = inputs.mesh.temperatures.scuffing, inputs.mesh.temperatures.oil
+    assert limit is not None
     factors = [None if contact is None else safety_factor(limit, oil, contact) for contact in hottest]
     finite = [factor for factor in factors if factor is not None]
     feature, places = factors[2:] if len(factors) > 2 else (None, None)
     # A known contact without a factor is as cool as the oil: its safety has no bound and is not the least.
     least = min(finite, default=None) if None not in hottest else None
-    return TrainSafety(factors[0], factors[1], worst, feature, places, least)
+    return TrainSafety(factors[0], factors[1], worst, feature, places, least, standard)

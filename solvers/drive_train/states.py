@@ -6,6 +6,7 @@ from solvers.arrays import FloatArray
 from solvers.drive_train import model
 from solvers.drive_train.inputs import DriveTrainInputs
 from solvers.drive_train.results import DriveTrainResult, States
+from solvers.drive_train.safety import contact_of
 from solvers.errors import InvalidInput, NoSolution
 from solvers.heat_balance import Cooling
 from solvers.notices import Notice
@@ -70,7 +71,11 @@ def cool_down(inputs: DriveTrainInputs) -> DriveTrainInputs:
     """
     heat, reference = inputs.heat, inputs.heat.reference
     mesh = replace(inputs.mesh, cooling=Cooling())
-    if not inputs.bulk_given:
+    contact = contact_of(inputs)
+    has_bulk = contact.known_oil is not None or contact.temperatures.bulk is not None
+    if not has_bulk:  # a dry unit whose cold teeth must not count as a given bulk temperature
+        mesh = replace(mesh, temperatures=replace(mesh.temperatures, bulk_method="estimated"))
+    elif not inputs.bulk_given:
         mesh = replace(mesh, temperatures=replace(mesh.temperatures, bulk=reference, bulk_method="given"))
     return replace(
         inputs,

@@ -155,7 +155,8 @@ class GearPairInputs:
         default=None,
         ge=1,
         le=11,
-        text="flank tolerance class of both gears: what studies scatter; the nominal flanks stay as they are",
+        text="flank tolerance class of both gears: what studies scatter, and the grade of the checks by the standard; "
+        "the nominal flanks stay as they are",
         default_text="no tolerances",
         if_above="classes end at 11; the grade 12 of older editions has other tolerances",
     )

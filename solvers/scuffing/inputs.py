@@ -15,6 +15,7 @@ from solvers.quantity import described, quantity, record
 from solvers.sources import ISO_6336, XUE
 
 FZG = "ISO 14635-1"
+ASSUMED_GRADE = 7  # quality grade where neither it nor a quality class is given: that of the test gears
 ISO_TR_15144 = "ISO/TR 15144-1:2014, as read in a public implementation"
 TS_6336_20 = "ISO/TS 6336-20:2017 (ISO/TR 13989-1), as read in a public implementation"
 TS_6336_21 = "ISO/TS 6336-21:2017 (ISO/TR 13989-2), as read in a public implementation"
@@ -657,15 +658,16 @@ class MicropittingCheck:
         text="film over roughness that the flanks need, instead of a test",
         default_text="by the micropitting test",
     )
-    quality_grade: int = quantity(
+    quality_grade: int | None = quantity(
         "quality grade",
         "Q",
         ISO_TR_15144,
-        default=7,
+        default=None,
         ge=5,
         le=12,
         text="for the load sharing of the standard; finer grades count as 7",
-        assumed="grade 7, as of the test gears",
+        default_text="the quality class of the gears, else 7",
+        assumed="the quality class of the gears; without one grade 7, as of the test gears",
     )
     wear_coefficient: float | None = quantity(
         "wear coefficient",
@@ -679,6 +681,12 @@ class MicropittingCheck:
         text="of both flanks",
         default_text="no wear",
     )
+
+
+def grade_in_force(grade: int | None, gears: GearPairInputs) -> int:
+    """Quality grade of the checks by the standard: given, else the quality class of the gears, else 7."""
+    known = gears.quality_class if grade is None else grade
+    return ASSUMED_GRADE if known is None else known
 
 
 @record
@@ -721,15 +729,16 @@ class StandardFactors:
         text="for the checks by the standard alone",
         default_text="that of the load if it is not 1, otherwise by method B of ISO 6336-1",
     )
-    quality_grade: int = quantity(
+    quality_grade: int | None = quantity(
         "quality grade for the standard",
         "A",
         "ISO 1328-1:2013",
-        default=7,
+        default=None,
         ge=1,
         le=11,
         text="flank tolerance class: deviations in K_v and K_Hα, load sharing, tip relief factor",
-        assumed="class 7; a coarser gear has larger load factors",
+        default_text="the quality class of the gears, else 7",
+        assumed="the quality class of the gears, 7 without one; a coarser gear has larger load factors",
     )
     running_in: float = quantity(
         "state of running in",

@@ -19,6 +19,7 @@ from solvers.lubricants import OilInUse, oil_in_use
 from solvers.oils import OilSheet
 from solvers.scuffing.contact_slices import Peak, reaches_base_circle
 from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, ScuffingTest, Temperatures
+from solvers.scuffing.load_factors.method_b import film_grade, standard_grade
 from solvers.scuffing.micropitting.check import CheckedFlank, check_micropitting
 from solvers.scuffing.micropitting.wear import wear_asked_for
 from solvers.scuffing.model import solve
@@ -48,7 +49,7 @@ from solvers.scuffing.thermal.flank import (
 from solvers.scuffing.thermal.misalignment import misalignment_left_out
 from solvers.scuffing.thermal.places import Places, solve_places
 from solvers.scuffing.thermal.practice import scuffing_risk
-from solvers.scuffing.thermal.temperatures import oil_notices, pair_in_force
+from solvers.scuffing.thermal.temperatures import in_force, oil_notices
 from solvers.scuffing.thermal.thermal_path import SolvedLine, solve_line, solver_notices
 from solvers.scuffing.thermal.verdict import (
     CheckedLine,
@@ -68,7 +69,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
     """Compute the load distribution of a pair, of two helices that of one, and check it against scuffing (Eq. 16).
 
     Raises InvalidInput `exclusive` if a bulk temperature is given although `bulk_method` is "estimated"; the errors of
-    `model.solve` and of `pair_in_force`; the error of the thermal EHL solver if this solver refuses every point.
+    `model.solve` and of `in_force`; the error of the thermal EHL solver if this solver refuses every point.
     """
     if inputs.temperatures.bulk_method == "estimated" and inputs.temperatures.bulk is not None:
         message = (
@@ -77,7 +78,7 @@ def solve_scuffing(inputs: ScuffingInputs) -> Scuffing:
         )
         raise InvalidInput("exclusive", message, "temperatures.bulk_method")
     asked = inputs
-    inputs, distribution, flash_map, heat, rule, ran = pair_in_force(inputs, solve(inputs.distribution))
+    inputs, distribution, flash_map, heat, rule, ran = in_force(inputs, solve(inputs.distribution))
     given, bulk = inputs.distribution, inputs.temperatures.bulk
     whole = inputs.line == "flank"
     hottest = find_hottest(given, distribution, flash_map) if whole else None
@@ -255,7 +256,9 @@ def _derived(inputs: ScuffingInputs, mesh: Derived, heat: Heat | None, ran: Bulk
         density_15=None if sheet is None else sheet.reference_density,
         lubricant_factor=inputs.temperatures.lubricant_factor,
         bulk=ran,
+        standard=standard_grade(inputs),
         cooling=None if heat is None else cooling_in_force(inputs.cooling, heat),
+        micropitting=film_grade(inputs),
     )
 
 

@@ -11,6 +11,7 @@ from solvers.lubricants import OilInUse
 from solvers.notices import Notice
 from solvers.quantity import computed, described, quantity, record
 from solvers.scuffing.inputs import ISO_TR_15144, TS_6336_20
+from solvers.scuffing.load_factors.results import FilmGrade, StandardGrade
 from solvers.scuffing.micropitting.results import Micropitting, Wear
 from solvers.scuffing.results import Derived, Flank, LoadDistribution
 from solvers.scuffing.standard.results import ScuffingStandard
@@ -297,7 +298,11 @@ class ScuffingDerived:
         equation="R9",
     )
     bulk: BulkInForce
+    standard: StandardGrade = quantity("checks by the standard, as used")
     cooling: CoolingInForce | None = quantity("cooling used", default=None, text="null without a heat balance")
+    micropitting: FilmGrade | None = quantity(
+        "check against micropitting, as used", text="left out without one", default=None, left_out=True
+    )
 
 
 @record

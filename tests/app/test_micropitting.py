@@ -160,7 +160,7 @@ def test_one_figure_says_where_it_starts_and_what_the_modifications_do() -> None
     described, plain = figure.panels
     assert described.marks[0].x == pytest.approx(local["at_face_mm"])
     assert described.marks[0].y == pytest.approx(local["at_psi"])
-    assert "S_λ = 1.47: limited margin" in figure.finding
+    assert "S_λ = 1.48: limited margin" in figure.finding
     assert "without modifications and misalignment" in figure.finding
     assert plain.marks[0].y == pytest.approx(0.0, abs=1e-6)
     assert len(drawn(SCUFFING, "micropitting", SPUR).panels) == 1

@@ -419,7 +419,12 @@ def test_stagnation_temperature_of_the_axial_speed_only_is_an_assumption(flow: s
         ("starter-coupling-at-its-limits", [("invalid", "edge_contact"), ("doubtful", "sliding_velocity")]),
         (
             "starter-turbo-gear-drive-train",
-            [("doubtful", "thrust_reversal"), ("doubtful", "net_flow_uncertain"), ("note", "gas_grows_freely")],
+            [
+                ("doubtful", "thrust_reversal"),
+                ("doubtful", "net_flow_uncertain"),
+                ("note", "gas_grows_freely"),
+                ("note", "no_standard_flash"),
+            ],
         ),
         (
             "milian-table-1-incompressible",

@@ -1,10 +1,12 @@
-"""The service states the standard's numbers beside the local ones, and checks dry or greased pairs."""
+"""The service states the standard's numbers beside the local ones, and checks dry or greased pairs and units."""
 
+import re
 from typing import Any
 
 import pytest
 
-from app.errors import InvalidBody
+from app.calculations import BY_PATH
+from app.errors import InvalidBody, Unprocessable
 from app.evaluate import answer
 from app.examples import examples
 from app.pages.cases import Asked
@@ -13,10 +15,15 @@ from app.pages.views import report
 from tests.support.pages import html_of
 from tests.support.requests import changed
 
-SCUFFING = "/v1/scuffing"
+SCUFFING, TRAIN, WARM_UP = "/v1/scuffing", "/v1/drive-train", "/v1/drive-train/warm-up"
 STARTER = examples()["starter-industrial-scuffing"].request | {"model": {"lubrication": "closed_form"}}
 MICRO = examples()["starter-industrial-micropitting"].request | {"model": {"lubrication": "closed_form"}}
 DRY = {name: section for name, section in STARTER.items() if name not in {"lubricant", "temperatures"}}
+TURBO = examples()["starter-turbo-gear-drive-train"].request
+DOUBLE = examples()["starter-turbo-double-helical"].request | {"model": {"lubrication": "closed_form"}}
+PLAIN = {"modifications.tip_relief_um": 0.0, "modifications.root_relief_um": 0.0}
+TEST = {"temperatures": {"oil_c": 50.0, "scuffing_test": {"fzg_stage": 12}}}
+DRY_TURBO = {name: section for name, section in TURBO.items() if name not in {"lubricant", "temperatures"}}
 GIVEN = {
     "temperatures": {"bulk_c": 90.0, "oil_c": 40.0, "scuffing_c": 300.0},
     "friction_coefficient": 0.1,
@@ -27,8 +34,22 @@ def asked(request: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
     return answer(SCUFFING, changed(request, changes))
 
 
+def train(request: dict[str, Any], changes: dict[str, Any]) -> dict[str, Any]:
+    return answer(TRAIN, changed(request, {"detail": "summary"} | changes))
+
+
 def fields(found: dict[str, Any]) -> set[str]:
     return {each["field"] for each in found["assumptions"]}
+
+
+def assumed(found: dict[str, Any], field: str) -> Any:
+    return next((each["value"] for each in found["assumptions"] if each["field"] == field), "not assumed")
+
+
+def tables_of(html: str) -> dict[str, str]:
+    """Return the tables of local values and the standard's, by title."""
+    titles = re.finditer(r">([^<>]+): local and by the standard<", html)
+    return {title[1]: html[title.end() :].partition("They differ because")[0] for title in titles}
 
 
 def test_the_standard_stands_beside_the_local_check() -> None:
@@ -106,3 +127,130 @@ def test_a_dry_pair_without_a_bulk_temperature_has_no_contact_temperature() -> N
     found = asked(DRY, {"temperatures": {"scuffing_c": 300.0}, "friction_coefficient": 0.1})
     assert (found["contact_temperature"], found["safety"]) == (None, None)
     assert html_of(Asked("/scuffing", pairs_of(changed(DRY, GIVEN))))
+
+
+def test_a_unit_has_the_standard_with_the_face_load_factor_of_its_shafts() -> None:
+    found = train(TURBO, PLAIN | TEST)
+    standard = found["safety"]["standard"]
+    assert standard["factors"]["face_load_factor"] == found["load"]["face_load_factor"] > 1.01
+    excess = standard["flash"]["scuffing_c"] - 50.0, standard["flash"]["contact_c"] - 50.0
+    assert standard["flash"]["safety"] == pytest.approx(excess[0] / excess[1])
+    assert standard["integral"]["load_safety"] > 1.0
+    assert found["safety"]["minimum"] == found["safety"]["blok_flank"]
+    heavy = train(TURBO, PLAIN | TEST | {"standard.face_load_factor": 1.5, "model.standard_edition": "2000"})
+    other = heavy["safety"]["standard"]
+    assert other["factors"]["face_load_factor"] == 1.5
+    assert other["flash"]["roughness_factor"] == pytest.approx(standard["flash"]["roughness_factor"] ** 2)
+    assert heavy["safety"] | {"standard": None} == found["safety"] | {"standard": None}
+
+
+def test_a_relieved_unit_says_once_why_the_flash_method_is_missing() -> None:
+    found = train(TURBO, {})
+    assert found["safety"]["standard"]["flash"] is None
+    assert [each["code"] for each in found["warnings"]].count("no_standard_flash") == 1
+    assert train(TURBO, {"temperatures.scuffing_c": None})["safety"] is None
+
+
+def test_each_helix_has_its_own_standard() -> None:
+    found = train(DOUBLE, PLAIN | {"modifications.helix_slope_um": 60.0})
+    helices, decisive = found["helices"], found["decisive_helix"] - 1
+    for helix in helices:
+        assert helix["safety"]["standard"]["factors"]["face_load_factor"] == helix["load"]["face_load_factor"]
+    assert found["safety"] == helices[decisive]["safety"]
+    one, other = (helix["safety"]["standard"]["factors"]["line_load_n_per_mm"] for helix in helices)
+    assert one != other
+    assert [each["code"] for each in found["warnings"]].count("no_standard_flash") == 0
+
+
+@pytest.mark.parametrize(
+    ("endpoint", "request_of", "section"),
+    [(SCUFFING, MICRO, "standard"), (SCUFFING, MICRO, "micropitting"), (TRAIN, TURBO, "standard")],
+)
+def test_the_quality_grade_follows_the_quality_class(endpoint: str, request_of: dict[str, Any], section: str) -> None:
+    """A class of the gears is the grade of the standard too, said as an assumption; a given grade wins."""
+    path = f"{section}.quality_grade"
+    plain, classed, given = (
+        answer(endpoint, changed(request_of, {"detail": "summary"} | PLAIN | change))
+        for change in ({}, {"gears.quality_class": 9}, {"gears.quality_class": 9, path: 7})
+    )
+    assert [assumed(each, path) for each in (plain, classed, given)] == [7, 9, "not assumed"]
+    assert [each["derived"][section]["quality_grade"] for each in (plain, classed, given)] == [7, 9, 7]
+    if section == "standard":
+        factors = [each["safety"]["standard"]["factors"] for each in (plain, classed, given)]
+        assert factors[1]["dynamic_factor"] > factors[0]["dynamic_factor"] == factors[2]["dynamic_factor"]
+    else:
+        first = [each["micropitting"]["standard"]["points"][0]["force_ratio"] for each in (plain, classed, given)]
+        assert first[1] > first[0] == first[2]
+
+
+def test_page_and_report_of_a_unit_show_both_side_by_side() -> None:
+    case = Asked("/drive-train", pairs_of(changed(TURBO, PLAIN | {"micropitting": {"failure_load_stage": 8}})))
+    for html in (html_of(case), report(case, "").content.decode()):
+        tables = tables_of(html)
+        assert tables.keys() == {"Scuffing", "Micropitting"}
+        assert "safety factor" in tables["Scuffing"]
+        assert tables["Scuffing"].count("–") < 5
+
+
+def test_the_page_of_two_helices_has_a_table_for_each() -> None:
+    html = html_of(Asked("/drive-train", pairs_of(changed(DOUBLE, PLAIN))))
+    assert tables_of(html).keys() == {"Scuffing of helix 1", "Scuffing of helix 2"}
+
+
+def test_a_dry_or_greased_unit_has_a_contact_temperature_and_a_safety() -> None:
+    """Its bearings state their own oil; of the gears bulk temperature, friction and scuffing temperature are given."""
+    found = train(DRY_TURBO, GIVEN)
+    contact = found["flash"]["contact_max_c"]
+    assert contact == pytest.approx(90.0 + found["flash"]["flank_k"])
+    assert found["safety"]["blok_flank"] == pytest.approx((300.0 - 40.0) / (contact - 40.0))
+    assert found["safety"]["minimum"] == pytest.approx(found["safety"]["blok_flank"], rel=0.1)
+    assert (found["safety"]["standard"], found["heat"], found["micropitting"]) == (None, None, None)
+    assert found["losses"]["mesh_w"] > 0.0
+    (notice,) = (each for each in found["warnings"] if each["code"] == "no_oil")
+    assert "dry or greased" in notice["message"]
+    oiled = train(TURBO, GIVEN)
+    assert found["flash"] == oiled["flash"]
+    thermal = train(DRY_TURBO, GIVEN | {"model": {"lubrication": "thermal_ehl"}})
+    assert thermal["safety"] == found["safety"]
+    cold = train(DRY_TURBO, GIVEN | {"states": ["hot", "cold"]})["states"]["cold"]
+    assert cold["derived"]["temperatures"]["bulk_c"] == 90.0
+
+
+def test_a_dry_unit_takes_the_mean_of_its_teeth_and_is_cold_without_them() -> None:
+    friction = {"friction_coefficient": 0.1, "temperatures": {"scuffing_c": 300.0}}
+    found = train(DRY_TURBO, friction)
+    assert found["derived"]["temperatures"]["bulk_c"] == pytest.approx((95.0 + 80.0) / 2)
+    assert found["safety"]["blok_flank"] > 0.0
+    unknown = train(DRY_TURBO, friction | {"thermal": {"wall_response": 0.6}, "states": ["hot", "cold"]})
+    assert (unknown["safety"], unknown["states"]["cold"]["safety"]) == (None, None)
+
+
+@pytest.mark.parametrize("part", ["pinion_shaft", "wheel_shaft"])
+def test_a_dry_unit_needs_the_viscosity_of_its_plain_bearings(part: str) -> None:
+    with pytest.raises(Unprocessable) as refusal:
+        train(DRY_TURBO, GIVEN | {f"{part}.bearings.0.viscosity_pa_s": None})
+    assert (refusal.value.code, refusal.value.path) == ("no_oil", f"{part}.bearings.0.viscosity_pa_s")
+
+
+@pytest.mark.parametrize(
+    ("changes", "pointer"),
+    [
+        ({"standard.quality_grade": 12}, "/standard/quality_grade"),
+        ({"standard.face_load_factor": "NaN"}, "/standard/face_load_factor"),
+        ({"standard.running_in": -1}, "/standard/running_in"),
+        ({"standard": []}, "/standard"),
+        ({"model.standard_edition": "1987"}, "/model/standard_edition"),
+    ],
+)
+def test_a_unit_refuses_what_the_standard_does_not_have(changes: dict[str, Any], pointer: str) -> None:
+    for endpoint in (TRAIN, WARM_UP):
+        with pytest.raises(InvalidBody) as refusal:
+            answer(endpoint, changed(TURBO, changes))
+        assert pointer in [fault.pointer for fault in refusal.value.faults]
+
+
+def test_a_warm_up_asks_for_nothing_of_the_standard() -> None:
+    request = examples()["starter-turbo-gear-warm-up"].request
+    asked_for = BY_PATH[WARM_UP].request.model_validate(request).unused()
+    assert asked_for["standard"]
+    assert asked_for["model.standard_edition"]

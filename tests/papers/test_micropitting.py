@@ -49,7 +49,7 @@ def test_a_density_that_is_given_counts() -> None:
 
 @pytest.mark.parametrize(("grade", "thin"), ASKED_FOR)
 def test_a_printed_diagram_asks_for_the_same_film(grade: int, thin: float) -> None:
-    """7 % and the 0.003 of the reading, at every stage; one factor on the load of the test serves all of them."""
+    """7 % and the 0.003 of the reading, at every stage; one load sharing and one K_Hbeta of the test serve all."""
     for stage, asked in enumerate(ASKED_FOR[grade, thin], 5):
         permissible = permissible_ratio(MicropittingCheck(stage), film_of_test(mineral(grade, thin), stage))
         assert permissible == pytest.approx(asked, abs=0.07 * asked + 0.003)
@@ -75,7 +75,7 @@ def test_the_load_of_the_test_gears_is_their_load_sharing() -> None:
         found = solve_load_distribution(pair)
         shares.append(float(found.feature_line.line_load[0]) * 14e-3 / found.load.tangential_force)
     assert shares[1] == pytest.approx(shares[0], rel=0.01)
-    assert shares[1] == pytest.approx(oil_test.LOAD_FACTOR / 3, rel=0.05)
+    assert shares[1] == pytest.approx(oil_test.LINE_LOAD_FACTOR / 3, rel=0.05)
 
 
 def test_the_weaker_surface_decides_unless_a_factor_is_given() -> None:

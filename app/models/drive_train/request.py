@@ -16,6 +16,7 @@ from app.models.scuffing.request import (
     MeshInOil,
     MeshModel,
     Micropitting,
+    StandardLoad,
 )
 from app.models.sections.cooling import GearCooling
 from app.models.sections.gears import BacklashGears, GearMaterials
@@ -338,6 +339,7 @@ class DriveTrainRequest(MeshInOil):
     friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
     cooling: Annotated[GearCooling, Input.of(mesh.ScuffingInputs, "cooling")] = GearCooling()
     micropitting: Annotated[Micropitting | None, Input.of(mesh.ScuffingInputs, "micropitting")] = None
+    standard: Annotated[StandardLoad, Input.of(mesh.ScuffingInputs, "standard")] = StandardLoad()
     states: Annotated[list[si.State], Input.of(si.DriveTrainInputs, "states")] = Field(
         default_factory=partial(list[si.State], ("hot",))
     )
@@ -466,7 +468,8 @@ class WarmUpRequest(DriveTrainRequest, of=warm_up.WarmUpInputs):
         return False  # a warm-up has uniform temperatures along the face
 
     def unused(self) -> dict[str, bool]:
-        return super().unused() | {"cooling.casing.mass_kg": False, "states": True, "model.face_heat": True}
+        without_effect = ("states", "model.face_heat", "standard", "model.standard_edition")
+        return super().unused() | {"cooling.casing.mass_kg": False} | dict.fromkeys(without_effect, True)
 
     def inputs(self) -> warm_up.WarmUpInputs:  # type: ignore[override]
         return self.si(warm_up.WarmUpInputs, unit=super().inputs())

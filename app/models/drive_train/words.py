@@ -7,7 +7,14 @@ from app.figures.wording import number, percent
 from app.models.card import FileResult, FromFile, ScuffingPaths, Words
 from app.models.coupling.words import ProportionsInForce
 from app.models.load_distribution.words import MESH_DERIVED
-from app.models.scuffing.words import LOAD_RESULTS, MICROPITTING_RESULTS, OPTIONAL_CHAPTERS, how_well_known
+from app.models.scuffing.words import (
+    LOAD_RESULTS,
+    MICROPITTING_RESULTS,
+    OPTIONAL_CHAPTERS,
+    LocalPaths,
+    beside,
+    how_well_known,
+)
 from app.schema.answers import Response, component, group, named
 from app.schema.quantities import View
 from solvers.drive_train import derived, results, warm_up
@@ -131,6 +138,27 @@ def _locks(response: Any) -> str:
     return f"{said}. While it slides, {free}; if dirt or wear lock it, {fast}."
 
 
+def _local(at: str = "") -> LocalPaths:
+    """Paths of local values, of the unit or of the helix at the path `at`."""
+    return LocalPaths(
+        dynamic_factor="inputs.operation.dynamic_factor",
+        bulk=f"{at}bulk_c" if at else "inputs.temperatures.bulk_c",
+        largest_flash=f"{at}flash.flank_k",
+        contact=f"{at}flash.contact_max_c",
+        limit="inputs.temperatures.scuffing_c",
+        safety=f"{at}safety.blok_flank",
+    )
+
+
+BESIDE = (
+    *beside(_local(), unless="helices.0"),
+    *(
+        table
+        for k in range(2)
+        for table in beside(_local(f"helices.{k}."), of=f" of helix {k + 1}", at=f"helices.{k}.")
+    ),
+)
+
 WORDS = Words(
     remarks=remarks,
     belongs=belongs,
@@ -138,6 +166,7 @@ WORDS = Words(
     chapters=OPTIONAL_CHAPTERS | {"axial": "double-helical"},
     losses=("losses.coupling_w", "losses.pumping_w", "losses.mesh_w", "losses.bearings_w"),
     scuffing=ScuffingPaths("flash.contact_max_c", "derived.temperatures.scuffing_c"),
+    beside=BESIDE,
     of_the_film=frozenset({"safety.minimum", "helices.*.safety.minimum"}),
     from_file=FromFile(unknown=frozenset({"scuffing.application_factor"}), renamed={"load": "operation"}),
     to_file=(

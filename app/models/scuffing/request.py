@@ -101,20 +101,17 @@ class StandardLoad(Section, of=si.StandardFactors):
     """Load factors and flanks for the checks by the standard; they never load the local checks."""
 
 
-OF_A_PAIR = ("line", "standard_edition")
-
-
 class MeshModel(
     LoadDistributionModel,
     FilmModel,
     of=si.ScuffingInputs,
-    without=(*OF_A_PAIR, "micropitting", "cooling", "standard"),
+    without=("line", "micropitting", "cooling", "standard"),
 ):
-    """Model options of the load distribution and of the film."""
+    """Model options of the load distribution and of the film, and the edition of the standard."""
 
 
-class ScuffingModel(MeshModel, of=si.ScuffingInputs, only=OF_A_PAIR):
-    """Model options of load distribution and film, the part of the flank to check, and the edition of the standard."""
+class ScuffingModel(MeshModel, of=si.ScuffingInputs, only=("line",)):
+    """Model options of load distribution and film, the edition of the standard, and the part of the flank to check."""
 
 
 PRACTICAL_FRICTION = Input.of(
@@ -253,16 +250,27 @@ class MeshInOil(Request):
         relief = self.modifications.tip_relief_um or self.modifications.root_relief_um
         return self.lubricant.known and self.micropitting is not None and not relief
 
+    @property
+    def _scuffing_asked(self) -> bool:
+        """Whether the pair is checked against scuffing, locally and by the standard."""
+        limit = self.temperatures.scuffing_c is not None or self.temperatures.scuffing_test is not None
+        return bool(self.lubricant.known) and limit
+
     def unused(self) -> dict[str, bool]:
-        dry, standard = not self.lubricant.known, self._standard_film_asked
-        no_film = dry or self.model.lubrication == "closed_form"
+        dry, film, scuffing = not self.lubricant.known, self._standard_film_asked, self._scuffing_asked
+        no_film, given = dry or self.model.lubrication == "closed_form", self.bulk_method == "given"
+        standard, test = scuffing or film, self.temperatures.scuffing_test
         of_the_film = (name for name in Micropitting.model_fields if not name.startswith("wear"))
         return dict.fromkeys((f"micropitting.{name}" for name in of_the_film), dry) | {
-            "micropitting.quality_grade": dry or not standard,
-            "temperatures.oil_supply": self.bulk_method == "given" and not standard,
+            "micropitting.quality_grade": not film,
+            "standard": not standard,
+            "standard.running_in": not scuffing,
+            "model.standard_edition": not scuffing,
+            "temperatures": dry and not given,
+            "temperatures.oil_supply": dry or (given and not standard),
+            "temperatures.scuffing_test": dry and test is not None and test.lubricant_factor is None,
             "cooling": not self.is_balanced,
             "lubricant": dry,
-            "temperatures": dry,
             "model.rheology": no_film,
             "model.eyring_stress_mpa": no_film,
             "lubricant.kind": not (self.lubricant.by_sheet or self._lubricant_factor_asked),
@@ -329,26 +337,7 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
         along_the_face = ("cooling.jet_distribution", "cooling.measured.face")
         of_a_unit = ("cooling.bearing_film_share", "cooling.casing.mass_kg", *along_the_face)
         single = {"load.axial_force_n": self.gears.gap_width_mm is None}
-        scuffing, dry = self._scuffing_asked, not self.lubricant.known
-        test = self.temperatures.scuffing_test
-        of_oil = {
-            "temperatures": dry and self.temperatures.bulk_c is None,
-            "temperatures.oil_supply": dry
-            or (self.bulk_method == "given" and not (scuffing or self._standard_film_asked)),
-            "temperatures.scuffing_test": dry and test is not None and test.lubricant_factor is None,
-        }
-        standard = {
-            "standard": not (scuffing or self._standard_film_asked),
-            "standard.running_in": not scuffing,
-            "model.standard_edition": not scuffing,
-        }
-        return super().unused() | dict.fromkeys(of_a_unit, True) | single | of_oil | standard
-
-    @property
-    def _scuffing_asked(self) -> bool:
-        """Whether the pair is checked against scuffing, locally and by the standard."""
-        limit = self.temperatures.scuffing_c is not None or self.temperatures.scuffing_test is not None
-        return bool(self.lubricant.known) and limit
+        return super().unused() | dict.fromkeys(of_a_unit, True) | single
 
     def inputs(self) -> si.ScuffingInputs:
         return self.scuffing_inputs(*self.running())

@@ -1,6 +1,6 @@
 """What is said of the answers about scuffing: components, views, remarks, and what files take back."""
 
-from typing import Any
+from typing import Any, NamedTuple
 
 from app.models.card import Beside, FileResult, FromFile, ScuffingPaths, Words
 from app.models.load_distribution.words import (
@@ -127,51 +127,88 @@ These results need the failure load stage of a micropitting test. REXS has no at
 enters the load stage on the page of the calculation.
 """
 
-_FLASH, _INTEGRAL = "safety.standard.flash", "safety.standard.integral"
-SCUFFING_BESIDE = Beside(
-    "Scuffing: local and by the standard",
-    ("local", "ISO/TS 6336-20, flash", "ISO/TS 6336-21, integral"),
-    (
-        ("face load factor", ("load.face_load_factor", *["safety.standard.factors.face_load_factor"] * 2)),
-        ("dynamic factor", ("inputs.load.dynamic_factor", *["safety.standard.factors.dynamic_factor"] * 2)),
-        (
-            "coefficient of friction",
-            ("flash.friction_coefficient", f"{_FLASH}.friction_coefficient", f"{_INTEGRAL}.friction_coefficient"),
-        ),
-        ("bulk temperature", ("contact_temperature.bulk_c", f"{_FLASH}.bulk_c", f"{_INTEGRAL}.bulk_c")),
-        ("largest flash temperature", ("flash.blok_max_k", f"{_FLASH}.max_flash_k", "")),
-        ("mean flash temperature", ("", f"{_FLASH}.mean_flash_k", f"{_INTEGRAL}.mean_flash_k")),
-        (
-            "contact or integral temperature",
-            ("contact_temperature.blok_max_c", f"{_FLASH}.contact_c", f"{_INTEGRAL}.integral_c"),
-        ),
-        ("scuffing temperature", ("safety.scuffing_c", f"{_FLASH}.scuffing_c", f"{_INTEGRAL}.scuffing_c")),
-        ("safety factor", ("safety.blok_factor", f"{_FLASH}.safety", f"{_INTEGRAL}.safety")),
-    ),
+
+class LocalPaths(NamedTuple):
+    """Paths of local values that stand beside those of the standard; empty where an answer has no such value."""
+
+    dynamic_factor: str
+    bulk: str
+    largest_flash: str
+    contact: str
+    limit: str
+    safety: str
+
+
+WHY_SCUFFING_DIFFERS = (
     "They differ because the local check takes the computed load of every place with its modifications, the bulk "
     "temperature in force and X_L of the test at 90 °C, while the standard has one load for the whole face, raised by "
     "K_v, K_Hα and K_Hβ, a load sharing that knows no relief, flooded flanks and X_L at the oil temperature; the "
-    "integral method compares means.",
-    "safety.standard",
+    "integral method compares means."
 )
-MICROPITTING_BESIDE = Beside(
-    "Micropitting: local and by the standard",
-    ("local, method A", "ISO/TR 15144-1, method B"),
-    (
-        ("face load factor", ("load.face_load_factor", "micropitting.standard.factors.face_load_factor")),
-        ("dynamic factor", ("inputs.load.dynamic_factor", "micropitting.standard.factors.dynamic_factor")),
-        (
-            "coefficient of friction",
-            ("micropitting.local.friction_coefficient", "micropitting.standard.friction_coefficient"),
-        ),
-        ("bulk temperature", ("contact_temperature.bulk_c", "micropitting.standard.bulk_c")),
-        ("least specific film thickness", ("micropitting.local.least_ratio", "micropitting.standard.least_ratio")),
-        ("safety factor", ("micropitting.local.safety", "micropitting.standard.safety")),
-    ),
+WHY_MICROPITTING_DIFFERS = (
     "They differ because method A takes the computed load of every place and the bulk temperature in force, while "
     "method B has seven points of a load that is even over the face, raised by K_v, K_Hα and K_Hβ, and its own bulk "
-    "temperature.",
-    "micropitting.standard",
+    "temperature."
+)
+
+
+def beside(local: LocalPaths, *, of: str = "", at: str = "", unless: str = "") -> tuple[Beside, Beside]:
+    """Return the tables of scuffing and of micropitting, local and by the standard.
+
+    `of` stands behind the check in the titles; the results stand at the path `at`. Not shown where `unless` is there.
+    """
+    standard, film = f"{at}safety.standard", f"{at}micropitting.standard"
+    flash, integral, own = f"{standard}.flash", f"{standard}.integral", f"{at}micropitting.local"
+    face = f"{at}load.face_load_factor"
+    scuffing = (
+        ("face load factor", (face, *[f"{standard}.factors.face_load_factor"] * 2)),
+        ("dynamic factor", (local.dynamic_factor, *[f"{standard}.factors.dynamic_factor"] * 2)),
+        (
+            "coefficient of friction",
+            (f"{at}flash.friction_coefficient", f"{flash}.friction_coefficient", f"{integral}.friction_coefficient"),
+        ),
+        ("bulk temperature", (local.bulk, f"{flash}.bulk_c", f"{integral}.bulk_c")),
+        ("largest flash temperature", (local.largest_flash, f"{flash}.max_flash_k", "")),
+        ("mean flash temperature", ("", f"{flash}.mean_flash_k", f"{integral}.mean_flash_k")),
+        ("contact or integral temperature", (local.contact, f"{flash}.contact_c", f"{integral}.integral_c")),
+        ("scuffing temperature", (local.limit, f"{flash}.scuffing_c", f"{integral}.scuffing_c")),
+        ("safety factor", (local.safety, f"{flash}.safety", f"{integral}.safety")),
+    )
+    micropitting = (
+        ("face load factor", (face, f"{film}.factors.face_load_factor")),
+        ("dynamic factor", (local.dynamic_factor, f"{film}.factors.dynamic_factor")),
+        ("coefficient of friction", (f"{own}.friction_coefficient", f"{film}.friction_coefficient")),
+        ("bulk temperature", (local.bulk, f"{film}.bulk_c")),
+        ("least specific film thickness", (f"{own}.least_ratio", f"{film}.least_ratio")),
+        ("safety factor", (f"{own}.safety", f"{film}.safety")),
+    )
+    return (
+        Beside(
+            f"Scuffing{of}: local and by the standard",
+            ("local", "ISO/TS 6336-20, flash", "ISO/TS 6336-21, integral"),
+            scuffing,
+            WHY_SCUFFING_DIFFERS,
+            standard,
+            unless,
+        ),
+        Beside(
+            f"Micropitting{of}: local and by the standard",
+            ("local, method A", "ISO/TR 15144-1, method B"),
+            micropitting,
+            WHY_MICROPITTING_DIFFERS,
+            film,
+            unless,
+        ),
+    )
+
+
+LOCAL = LocalPaths(
+    dynamic_factor="inputs.load.dynamic_factor",
+    bulk="contact_temperature.bulk_c",
+    largest_flash="flash.blok_max_k",
+    contact="contact_temperature.blok_max_c",
+    limit="safety.scuffing_c",
+    safety="safety.blok_factor",
 )
 
 WORDS = Words(
@@ -181,7 +218,7 @@ WORDS = Words(
     losses=("friction_loss.power_w",),
     scuffing=ScuffingPaths("contact_temperature.blok_max_c", "safety.scuffing_c"),
     of_the_film=frozenset({"film.min_at_psi", "film.thickness_ratio", "unsolved_points"}),
-    beside=(SCUFFING_BESIDE, MICROPITTING_BESIDE),
+    beside=beside(LOCAL),
     from_file=FromFile(
         MESH | {"temperatures", "lubricant"},
         unknown=NOT_OF_A_MESH,

@@ -8,8 +8,8 @@ from typing import NamedTuple
 
 from solvers.gears.pair import PathOfContact
 from solvers.gears.tolerances import single_pitch
-from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, StandardFactors
-from solvers.scuffing.load_factors.results import LoadFactors
+from solvers.scuffing.inputs import LoadDistributionInputs, ScuffingInputs, StandardFactors, grade_in_force
+from solvers.scuffing.load_factors.results import FilmGrade, LoadFactors, StandardGrade
 from solvers.scuffing.mesh_results import StandardStiffness, standard_stiffness
 from solvers.scuffing.results import LoadDistribution
 
@@ -54,6 +54,17 @@ def stiffness_of(given: LoadDistributionInputs, path: PathOfContact) -> Standard
     return standard_stiffness(path, load, 2 * moduli[0] * moduli[1] / sum(moduli))
 
 
+def standard_grade(inputs: ScuffingInputs) -> StandardGrade:
+    """Return the quality grade of the checks by the standard."""
+    return StandardGrade(grade_in_force(inputs.standard.quality_grade, inputs.distribution.gears))
+
+
+def film_grade(inputs: ScuffingInputs) -> FilmGrade | None:
+    """Return the quality grade of method B against micropitting; None if it is not checked."""
+    check = inputs.micropitting
+    return None if check is None else FilmGrade(grade_in_force(check.quality_grade, inputs.distribution.gears))
+
+
 def factors_of(inputs: ScuffingInputs, distribution: LoadDistribution) -> LoadFactors:
     """Return the load factors of the standard for the load distribution of the pair."""
     computed = distribution.load.face_load_factor or 1.0
@@ -64,16 +75,16 @@ def load_factors(
     given: LoadDistributionInputs, path: PathOfContact, asked: StandardFactors, computed_face_factor: float
 ) -> LoadFactors:
     """Load factors of the checks by the standard; what is given wins over method B and over the computed K_Hbeta."""
-    ratio = resonance_ratio(given, path)
+    ratio, grade = resonance_ratio(given, path), grade_in_force(asked.quality_grade, given.gears)
     dynamic = asked.dynamic_factor
     if dynamic is None:
         dynamic = given.load.dynamic_factor
         if dynamic == 1.0:
-            dynamic = dynamic_factor(given, path, asked.quality_grade, ratio)
+            dynamic = dynamic_factor(given, path, grade, ratio)
     face = computed_face_factor if asked.face_load_factor is None else asked.face_load_factor
     transverse = asked.transverse_load_factor
     if transverse is None:
-        transverse = transverse_load_factor(given, path, asked.quality_grade, dynamic * face)
+        transverse = transverse_load_factor(given, path, grade, dynamic * face)
     line_load = nominal_line_load(given, path) * dynamic * face * transverse
     return LoadFactors(dynamic, ratio, transverse, face, line_load / MM)
 
@@ -138,5 +149,5 @@ def transverse_load_factor(
         return largest
     off = deviations(path, grade)
     excess = stiffness_of(given, path).mesh / STIFFNESS * max(off) / load
-    factor = total / 2 * (0.9 + 0.4 * excess) if total <= 2.0 else 0.9 + 0.4 * sqrt(2 * (total - 1) / total * excess)
+    factor = total / 2 * (0.9 + 0.4 * excess) if total <= 2.0 else 0.9 + 0.4 * sqrt(2 * (total - 1) / total) * excess
     return min(max(factor, 1.0), largest)

@@ -1,8 +1,8 @@
 """The load factors in the checks by the standard against scuffing and micropitting."""
 
 from solvers.quantity import quantity, record
-from solvers.scuffing.inputs import TS_6336_20
-from solvers.sources import ISO_6336
+from solvers.scuffing.inputs import ISO_TR_15144, TS_6336_20
+from solvers.sources import ISO_1328, ISO_6336
 
 METHOD_B = f"{ISO_6336}:2006, method B, as read in a public implementation"
 
@@ -40,3 +40,21 @@ class LoadFactors:
     def product(self) -> float:
         """K_v K_Hbeta K_Halpha [-]."""
         return self.dynamic_factor * self.face_load_factor * self.transverse_load_factor
+
+
+@record(equation="T1")
+class StandardGrade:
+    """The quality grade of the checks by the standard against scuffing, and of their load factors."""
+
+    quality_grade: int = quantity(
+        "quality grade used for the standard", "A", ISO_1328, text="given, or the quality class of the gears, else 7"
+    )
+
+
+@record(equation="M12")
+class FilmGrade:
+    """The quality grade of the load sharing of method B."""
+
+    quality_grade: int = quantity(
+        "quality grade used", "Q", ISO_TR_15144, text="given, or the quality class of the gears, else 7"
+    )

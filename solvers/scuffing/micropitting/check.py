@@ -7,7 +7,7 @@ import numpy as np
 from solvers.arrays import FloatArray
 from solvers.notices import Notice
 from solvers.scuffing.contact_slices import Peak
-from solvers.scuffing.inputs import MicropittingCheck, ScuffingInputs
+from solvers.scuffing.inputs import MicropittingCheck, ScuffingInputs, grade_in_force
 from solvers.scuffing.load_balance import BESIDE
 from solvers.scuffing.load_factors.method_b import factors_of
 from solvers.scuffing.micropitting.local import FlankFilm, find_least, flank_film
@@ -130,7 +130,8 @@ def _standard(
     temperatures = inputs.temperatures
     factors, load = factors_of(inputs, distribution), given.load
     torque = load.helix_torque * load.application_factor * load.mesh_load_factor * factors.product
-    standard = solve_standard(given, path, oil, temperatures.oil, temperatures.oil_supply, check.quality_grade, torque)
+    grade = grade_in_force(check.quality_grade, given.gears)
+    standard = solve_standard(given, path, oil, temperatures.oil, temperatures.oil_supply, grade, torque)
     values = zip(standard.force_ratio, standard.contacts.pressure, *standard.films, strict=True)
     points = tuple(
         StandardPoint(

@@ -86,16 +86,18 @@ def solve_standard(
     supply: OilSupply,
     quality_grade: int,
     torque: float,
+    contact_torque: float | None = None,
 ) -> StandardFilms:
     """Compute the film of a pair without relief at the seven points of the path.
 
-    `torque` is the pinion torque times all load factors [N m]; the bulk temperature follows from the plain power.
+    `torque` is the pinion torque times all load factors [N m], `contact_torque` that of the pressure if it has others
+    than the friction; the bulk temperature follows from the plain power.
     """
     friction = mean_friction(given, path, oil, oil_temperature, torque)
     bulk = bulk_temperature(given, path, oil_temperature, supply, friction)
     x = np.array([*characteristic_points(path).values()])
     sharing = load_sharing(path, x, quality_grade)
-    contacts = contacts_under(given, path, x, sharing, torque)
+    contacts = contacts_under(given, path, x, sharing, torque if contact_torque is None else contact_torque)
     conditions = Conditions(oil, bulk, friction, given.pinion_material, given.wheel_material)
     return StandardFilms(friction, bulk, loss_factor(path), sharing, contacts, films(conditions, contacts))
 

@@ -32,7 +32,7 @@ def solve_flash(mesh: StandardMesh, edition: StandardEdition, test: ScuffingTest
     x = _stretches(path)
     places = characteristic_points(path)
     at = _inside(path, np.array([*places.values()]))
-    shares, along = (iso_load_sharing(path, each, mesh.asked.quality_grade) for each in (at, x))
+    shares, along = (iso_load_sharing(path, each, mesh.grade) for each in (at, x))
     ends = mesh.reduced_radius(np.array([0.0, path.length])) * MM
     if shares is None or along is None or has_relief(mesh.given) or np.any(ends < path.plane.least_radius):
         return None

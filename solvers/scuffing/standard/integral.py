@@ -158,7 +158,7 @@ def relief_factor(mesh: StandardMesh, ends: AddendumContact, optimal: float) -> 
 
     1 + (0.06 + 0.18 C_a/C_eff) eps + (0.02 + 0.69 C_a/C_eff) eps^2, eps the larger addendum contact ratio.
     """
-    if mesh.asked.quality_grade > RELIEVED_GRADE or optimal <= 0.0:
+    if mesh.grade > RELIEVED_GRADE or optimal <= 0.0:
         return 1.0
     longer = ends.pinion > (1.5 if ends.pinion_drives else 2.0 / 3.0) * ends.wheel
     part = min((ends.pinion_relief if longer else ends.wheel_relief) / optimal, 1.0)

@@ -13,7 +13,7 @@ from solvers.gears.pair import PathOfContact
 from solvers.lubricants import Lubricant, OilKind
 from solvers.materials import Solid
 from solvers.oils import SQUARE_MILLIMETRE, OilSheet, lubricant_at
-from solvers.scuffing.inputs import LoadDistributionInputs, OilSupply, StandardFactors, Temperatures
+from solvers.scuffing.inputs import LoadDistributionInputs, OilSupply, StandardFactors, Temperatures, grade_in_force
 from solvers.scuffing.load_factors.method_b import MM, UM
 from solvers.scuffing.load_factors.results import LoadFactors
 from solvers.scuffing.thermal.practice import OIL_SUPPLY_FACTOR, pitch_line_velocity
@@ -66,6 +66,11 @@ class StandardMesh:
     def roughness(self) -> float:
         """Mean roughness of both flanks [um]."""
         return (self.given.pinion_material.roughness + self.given.wheel_material.roughness) / 2 / UM
+
+    @property
+    def grade(self) -> int:
+        """Quality grade of the flanks."""
+        return grade_in_force(self.asked.quality_grade, self.given.gears)
 
     @property
     def centre_distance(self) -> float:

@@ -83,19 +83,6 @@ def in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
     return InForce(complete, distribution, flash, heat, rule, rule.in_force(flanks))
 
 
-def pair_in_force(inputs: ScuffingInputs, distribution: LoadDistribution) -> InForce:
-    """As `in_force`; a dry or greased pair, which has no oil, keeps the temperatures that are given."""
-    found, asked = in_force(inputs, distribution), inputs.temperatures
-    if inputs.known_oil is not None or asked.bulk is None or found.rule.method != "given":
-        return found
-    test, limit = asked.scuffing_test, asked.scuffing
-    if test is not None and test.lubricant_factor is not None:
-        limit = scuffing_temperature(test.fzg_stage, test.structure_factor, test.lubricant_factor)
-    temperatures = replace(asked, scuffing=limit)
-    check_limit(temperatures)
-    return found._replace(inputs=replace(found.inputs, temperatures=temperatures))
-
-
 def check_limit(temperatures: Temperatures) -> None:
     """Raise InvalidInput `scuffing_temperature` if the scuffing temperature is not above the oil temperature."""
     if temperatures.scuffing is not None and temperatures.scuffing <= temperatures.oil:
@@ -150,14 +137,13 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
 def with_temperatures(inputs: ScuffingInputs) -> ScuffingInputs:
     """Return the inputs with the scuffing temperature, and with the lubricant at the bulk temperature.
 
-    If no oil is given, the bulk temperature and the lubricant are None. Without a bulk temperature, the lubricant is
-    None. Raises InvalidInput: `missing_bulk` if the method needs a bulk temperature that is not given;
-    `oil_temperature` if the bulk temperature is outside the range of an oil that is given by its data sheet;
-    `scuffing_temperature` if the scuffing temperature is not above the oil temperature.
+    Without oil or bulk temperature, the lubricant is None. Raises InvalidInput: `missing_bulk` if the method needs a
+    bulk temperature that is not given; `oil_temperature` if the bulk temperature is outside the range of an oil that is
+    given by its data sheet; `scuffing_temperature` if the scuffing temperature is not above the oil temperature.
     """
     temperatures, oil = inputs.temperatures, inputs.known_oil
     if oil is None:
-        return replace(inputs, temperatures=replace(temperatures, bulk=None, flanks=None))
+        return replace(inputs, temperatures=_of_dry_pair(temperatures))
     if temperatures.scuffing_test is not None:
         test = temperatures.scuffing_test
         factor = _oil_factor(oil, TEST_TEMPERATURE) if test.lubricant_factor is None else test.lubricant_factor
@@ -174,6 +160,18 @@ def with_temperatures(inputs: ScuffingInputs) -> ScuffingInputs:
     if isinstance(oil, OilSheet) and not COLDEST_OIL <= bulk <= HOTTEST_OIL:
         raise _oil_out_of_range(inputs, bulk)
     return replace(inputs, temperatures=temperatures, lubricant=lubricant_at(oil, bulk))
+
+
+def _of_dry_pair(temperatures: Temperatures) -> Temperatures:
+    """Return the temperatures of a dry or greased pair: a test of its lubricant counts with the X_L that is given."""
+    test = temperatures.scuffing_test
+    if temperatures.bulk is None:
+        return temperatures
+    if test is not None and test.lubricant_factor is not None:
+        limit = scuffing_temperature(test.fzg_stage, test.structure_factor, test.lubricant_factor)
+        temperatures = replace(temperatures, scuffing=limit)
+    check_limit(temperatures)
+    return temperatures
 
 
 def _oil_out_of_range(inputs: ScuffingInputs, bulk: float) -> InvalidInput:

@@ -26,7 +26,7 @@ def heat_of(inputs: ScuffingInputs) -> FlankHeat:
     distribution = solve(inputs.distribution)
     flash = map_flash(inputs.distribution, distribution)
     unit = replace(turbo_gear(), mesh=inputs)
-    return flank_heat(unit, distribution, flash, FaceBulk(unit, thermal))
+    return flank_heat(unit, distribution, flash, FaceBulk(unit, thermal), inputs.temperatures.scuffing_test)
 
 
 def test_a_point_too_light_to_matter_keeps_the_verdict() -> None:
@@ -47,6 +47,17 @@ def test_points_that_may_decide_take_it() -> None:
     assert heat.unsolved_points > 0
     assert (heat.safety.thermal_ehl_feature, heat.safety.thermal_ehl_profile) == (None, None)
     assert heat.safety.blok_flank is not None
+
+
+def test_the_standard_of_a_unit_is_that_of_the_pair() -> None:
+    """With rigid shafts both have the same face load factor; relieved flanks have no flash method, and it is said."""
+    inputs = replace(relieved_pair(200), lubrication="closed_form")
+    alone, heat = solve_scuffing(inputs), heat_of(inputs)
+    assert alone.safety is not None
+    assert heat.safety is not None
+    assert heat.safety.standard == alone.safety.standard
+    assert heat.safety.standard is not None
+    assert [notice.code for notice in heat.warnings] == ["no_standard_flash"]
 
 
 @pytest.mark.parametrize("lubrication", ["closed_form", "thermal_ehl"])

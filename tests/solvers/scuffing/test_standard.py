@@ -110,6 +110,19 @@ def test_the_transverse_factor_has_its_limits() -> None:
     assert transverse_load_factor(replace(PAIR, load=Load(5000.0, 150.0)), path, 1, 1.0) == 1.0
 
 
+def test_the_transverse_factor_does_not_jump_where_a_second_pair_always_carries() -> None:
+    """Both formulas of K_Halpha meet at a total contact ratio of 2: only 2 (eps - 1)/eps is under the root."""
+    helical = replace(GEARS, helix_angle=radians(15.0))
+    width = (2.0 - meshing_path(helical).transverse_contact_ratio) * np.pi * 4e-3 / np.sin(radians(15.0))
+    factors = []
+    for face in (width * (1 - 1e-9), width * (1 + 1e-9)):
+        gears = replace(helical, face_width=face)
+        load = Load(300.0 * face / 30e-3, 150.0)
+        factors.append(transverse_load_factor(replace(PAIR, gears=gears, load=load), meshing_path(gears), 8, 1.0))
+    assert factors[1] == pytest.approx(factors[0], rel=1e-7)
+    assert factors[0] > 1.01
+
+
 def test_load_factors_do_not_depend_on_which_gear_drives() -> None:
     turned = replace(GEARS, pinion=GEARS.wheel, wheel=GEARS.pinion)
     load = Load(300.0 * 45 / 20, 150.0 * 20 / 45)
