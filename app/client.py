@@ -23,9 +23,12 @@ from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar
 import httpx
 
 from app.errors import sentence
+from app.spreadsheet import frame_of
 
 if TYPE_CHECKING:
     from pandas import DataFrame
+
+__all__ = ["AsyncStudy", "AsyncTribodrive", "ProblemError", "ServiceError", "Study", "StudyError", "Tribodrive"]
 
 Json = dict[str, Any]
 Answer = TypeVar("Answer")
@@ -254,18 +257,6 @@ class _Study(Generic[Http]):
         if not self.end:
             raise StudyError(CUT_OFF)
 
-    def _table(self, results: list[Json]) -> "DataFrame":
-        from pandas import DataFrame, json_normalize  # noqa: PLC0415  only tables need it
-
-        if not results:
-            return json_normalize(self.end.get("cases", []))
-        if "axes" not in self.header:
-            return DataFrame(results)
-        points = [line for line in results if line["type"] == "point"]
-        columns = [column["path"] for column in self.header["axes"] + self.header["outputs"]]
-        rows = [[*line["at"], *line["out"], line["status"]] for line in points]
-        return DataFrame(rows, columns=[*columns, "status"], index=[line["index"] for line in points])
-
 
 class Study(_Study[httpx.Client]):
     """A study. Iterate over its results, or call `frame` for a table of all results.
@@ -309,7 +300,8 @@ class Study(_Study[httpx.Client]):
             One row per result. The table of a sweep has one column per varied input and one column per output. The
             table of a spectrum has one row per load case, or one row per point if the request asks for the points.
         """
-        return self._table(list(self))
+        results = list(self)
+        return frame_of(self.header, results, self.end)
 
 
 class AsyncStudy(_Study[httpx.AsyncClient]):
@@ -352,7 +344,8 @@ class AsyncStudy(_Study[httpx.AsyncClient]):
         pandas.DataFrame
             One row per result.
         """
-        return self._table([line async for line in self])
+        results = [line async for line in self]
+        return frame_of(self.header, results, self.end)
 
 
 class Tribodrive(_Endpoints[Json, Study]):

@@ -7,15 +7,22 @@ import os
 import socket
 import sys
 import threading
+import time
 from collections.abc import Sequence
+from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
+from multiprocessing import get_context
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from app.settings import Settings, settings
+from app.settings import MEBIBYTE, Settings, settings
+
+if TYPE_CHECKING:
+    from app.studies import Run
 
 LEAST_DESCRIPTORS = 32  # four of every worker, and those of the connections; chosen
 PROGRESS_S = 1.0  # time between two lines that report progress
+BAR, BAR_S = 30, 0.2  # length of the bar of a study, and time between two of its drawings
 EXIT_STATUS = {"ok": 0, "ok_with_warnings": 3, "no_solution": 4}  # status 1: no answer, 2: wrong arguments
 
 
@@ -33,9 +40,13 @@ def main() -> None:
     commands = parser.add_subparsers(dest="command", metavar="command", required=False)
     rexs = commands.add_parser("rexs", help="print the requests of a gear unit's file (REXS) instead of serving")
     rexs.add_argument("file", type=Path, help="a .rexs, .rexsj or .rexsz file")
-    solve = commands.add_parser("solve", help="print the answer to a request instead of serving")
-    solve.add_argument("endpoint", help="address of the calculation, such as /v1/coupling")
+    solve = commands.add_parser(
+        "solve", help="print the answer to a request, or the lines of a study, instead of serving"
+    )
+    solve.add_argument("endpoint", help="address of the calculation or study, such as /v1/coupling or /v1/sweep")
     solve.add_argument("file", type=Path, help="file with the request as JSON; - stands for the standard input")
+    solve.add_argument("--csv", action="store_true", help="print a sweep as a table instead of JSON lines")
+    solve.add_argument("--kept", type=Path, help="file that keeps the points of a study; a second run goes on from it")
     commands.add_parser("fields", help="print the table of all fields, one a line, for grep, instead of serving")
     compiling = commands.add_parser("compile", help="compile the kernels and keep them on disk instead of serving")
     compiling.add_argument("stages", nargs="*", help="names of stages, such as coupling; by default all")
@@ -44,7 +55,7 @@ def main() -> None:
         case "rexs":
             print_unit(arguments.file)
         case "solve":
-            print_answer(arguments.endpoint, arguments.file)
+            print_solution(arguments.endpoint, arguments.file, arguments.csv, arguments.kept)
         case "fields":
             print_fields()
         case "compile":
@@ -69,31 +80,79 @@ def print_unit(file: Path) -> None:
     _print_json(unit)
 
 
-def print_answer(endpoint: str, file: Path) -> None:
-    """Print the answer of an endpoint to the request in a file.
+def print_solution(endpoint: str, file: Path, as_csv: bool, kept: Path | None) -> None:
+    """Print the answer of an endpoint to the request in a file, or the lines of a study.
 
-    The exit status is the number that `EXIT_STATUS` has for the status of the answer. If the service rejects the
-    request, print the reason and exit with status 1.
+    The exit status of an answer is the number that `EXIT_STATUS` has for its status, that of a study 0. Without an
+    answer or the end of the study, print the reason and exit with status 1.
     """
     from app.calculations import BY_PATH  # noqa: PLC0415
     from app.errors import InvalidBody, Unprocessable, Unreadable, faults_of, sentence  # noqa: PLC0415
     from app.evaluate import answer  # noqa: PLC0415
     from app.schema.reading import content_of  # noqa: PLC0415
+    from app.studies import PoolLost  # noqa: PLC0415
+    from app.studies.kinds import KINDS  # noqa: PLC0415
 
     gc.enable()
-    if endpoint not in BY_PATH:
-        sys.exit(f"tribodrive: there is no endpoint {endpoint}; the endpoints are {', '.join(BY_PATH)}")
+    plans = {kind.path: kind for kind in KINDS}
+    if endpoint not in {*BY_PATH, *plans}:
+        sys.exit(f"tribodrive: there is no endpoint {endpoint}; the endpoints are {', '.join([*BY_PATH, *plans])}")
+    if as_csv and not (endpoint in plans and "csv" in plans[endpoint].formats):
+        sys.exit(f"tribodrive: the answer of {endpoint} is no table; leave out --csv")
+    if kept and endpoint not in plans:
+        sys.exit(f"tribodrive: {endpoint} is no study; leave out --kept")
     try:
-        body = sys.stdin.buffer.read() if file == Path("-") else file.read_bytes()
-        content = answer(endpoint, content_of(body))
+        content = content_of(sys.stdin.buffer.read() if file == Path("-") else file.read_bytes())
+        if endpoint in plans:
+            sys.exit(print_study(endpoint, content, as_csv, kept))
+        solution = answer(endpoint, content)
     except OSError as error:
-        sys.exit(f"tribodrive: {file}: {error.strerror}")
+        sys.exit(f"tribodrive: {error.filename or file}: {error.strerror}")
     except Unreadable as error:
         sys.exit(f"tribodrive: {error.detail}")
     except (InvalidBody, Unprocessable) as error:
         sys.exit("\n".join(f"tribodrive: {sentence(fault)}" for fault in faults_of(error)))
-    _print_json(content)
-    sys.exit(EXIT_STATUS[content["status"]])
+    except (PoolLost, ValueError) as error:
+        sys.exit(f"tribodrive: {error}")
+    _print_json(solution)
+    sys.exit(EXIT_STATUS[solution["status"]])
+
+
+def print_study(endpoint: str, body: Any, as_csv: bool, kept: Path | None) -> int:
+    """Print the lines of a study, solved by as many processes as the settings say. Return the exit status.
+
+    A terminal to which the lines do not go shows the progress.
+    """
+    from app.studies import study  # noqa: PLC0415
+    from app.workers.worker import prepare  # noqa: PLC0415
+
+    limits = settings()
+    own = (limits.worker_memory_mb * MEBIBYTE, ("app.studies.points",))
+    with ProcessPoolExecutor(limits.workers, get_context("spawn"), prepare, own) as processes:
+        run = study(endpoint, body, processes.map, kept)
+        encode, ended, last = run.plan.encoder("csv" if as_csv else "ndjson"), threading.Event(), ""
+        if sys.stderr.isatty() and not sys.stdout.isatty():
+            threading.Thread(target=_show_points, args=(run, ended), daemon=True).start()
+        try:
+            for line in run:
+                last = line["type"]
+                if not _is_printed(encode(line)):
+                    break
+        finally:
+            ended.set()
+            processes.shutdown(wait=False, cancel_futures=True)
+    return 1 if last == "error" else 0
+
+
+def _show_points(run: "Run", ended: threading.Event) -> None:
+    """Show a bar with the progress of a study on the standard error until the study has ended."""
+    began, is_shown = time.monotonic(), True
+    while is_shown:
+        is_shown = not ended.wait(BAR_S)
+        share = run.done / run.total
+        left = f", {(time.monotonic() - began) * (1 / share - 1):.0f} s left" if 0 < share < 1 else ""
+        bar = f"[{'#' * round(BAR * share):<{BAR}}] {run.done} of {run.total} points{left}"
+        print(f"\r{bar:<{BAR + 50}}", end="" if is_shown else "\n", file=sys.stderr, flush=True)  # noqa: T201
 
 
 def print_fields() -> None:
@@ -162,17 +221,21 @@ def _print_json(content: dict[str, Any]) -> None:
 
 
 def _print(text: str) -> None:
-    """Print a text. If the reader of a pipe has closed it, continue; if printing fails otherwise, exit with the reason.
+    """Print a text. Characters that the standard output cannot encode are escaped."""
+    _is_printed(f"{text}\n".encode(sys.stdout.encoding, "backslashreplace"))
 
-    Characters that the standard output cannot encode are escaped.
-    """
-    encoding = sys.stdout.encoding
+
+def _is_printed(content: bytes) -> bool:
+    """Print bytes. Return False if the reader of a pipe has closed it; if printing fails otherwise, exit."""
     try:
-        print(text.encode(encoding, "backslashreplace").decode(encoding), flush=True)  # noqa: T201  a command's output
+        sys.stdout.buffer.write(content)
+        sys.stdout.buffer.flush()
     except OSError as error:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())  # the flush at exit must not fail
-        if not isinstance(error, BrokenPipeError):  # BrokenPipeError: the pipe has been closed
+        if not isinstance(error, BrokenPipeError):
             sys.exit(f"tribodrive: cannot write the answer: {error.strerror}")
+        return False
+    return True
 
 
 def serve(application: str) -> None:

@@ -94,6 +94,18 @@ class StudyEnded(ServiceError):
     """A study ended before its figure could be drawn."""
 
 
+class PoolLost(Exception):
+    """The processes that solve the points of a study are lost. `code` is the code of the error in a stream."""
+
+    code = "scheduler_lost"
+
+
+class OtherSources(PoolLost):
+    """The solvers of a worker, or of points that were kept, are others than those of this process."""
+
+    code = "other_sources"
+
+
 class SchedulerUnavailable(ServiceError):
     """The cluster for studies cannot be used."""
 

@@ -18,11 +18,11 @@ from starlette.staticfiles import StaticFiles
 from app import log
 from app.errors import PROBLEMS
 from app.http import problems
+from app.http.admission import StudyAdmission
 from app.http.middleware import Protection
 from app.http.routes import calculations, manual, pages, rexs, service, studies, study_pages
 from app.schema.answers import MODEL_VERSION
 from app.settings import MEBIBYTE, settings, unknown_variables
-from app.studies.admission import StudyAdmission
 from app.workers.pool import Pool
 from app.workers.start_up import StartUp
 

@@ -62,7 +62,9 @@ class Settings(BaseSettings):
     )
     study_deadline_s: float = Field(600.0, gt=0, description="longest time for one study; then it ends with an error")
     studies: int = Field(2, ge=0, description="studies at once; one more is answered 503")
-    scheduler: str | None = Field(None, description="Dask scheduler that solves the studies, `tcp://host:port`")
+    scheduler: str | None = Field(
+        None, description="Dask scheduler that solves the studies, `tcp://host:port` or `tls://host:port`"
+    )
     worker_memory_mb: int = Field(2048, ge=512, description="memory a worker may allocate, MiB")
     max_body_bytes: int = Field(384 * 1024, ge=1024, description="largest request body; beyond it 413")
     rexs_mb: int = Field(20, ge=1, le=100, description="largest gear unit from a file, unpacked, MiB; beyond it 413")

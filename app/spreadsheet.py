@@ -1,10 +1,13 @@
-"""Conversion of rows into CSV. Spreadsheets do not interpret the cells of this CSV as formulas."""
+"""Tables: rows as CSV, whose cells spreadsheets do not interpret as formulas, and studies as tables of pandas."""
 
 import csv
 import re
 from collections.abc import Iterable
 from io import StringIO
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
 
 FORMULA_SIGNS = r"=+\-@\t\r\n"
 # A cell begins at the start of the text, and after a separator of lists, at which some spreadsheets split it.
@@ -32,3 +35,35 @@ def _cell(value: Any, digits: int | None) -> Any:
     if isinstance(value, str) and not _NUMBER.fullmatch(value):
         return _STARTS.sub(r"\1'\2", value)
     return value
+
+
+def frame_of(header: dict[str, Any], results: list[dict[str, Any]], end: dict[str, Any]) -> "DataFrame":
+    """Return a study as a table with a row per point, per result of another kind, or per load case of a spectrum."""
+    from pandas import DataFrame, json_normalize  # noqa: PLC0415  only tables need it
+
+    if not results:
+        return json_normalize(end.get("cases", []))
+    if "axes" not in header:
+        return DataFrame(results)
+    outputs = [column["path"] for column in header["outputs"]]
+    points = [line for line in results if line["type"] == "point"]
+    rows = [
+        {
+            **_inputs(header["axes"], line["at"]),
+            **dict(zip(outputs, line["out"], strict=True)),
+            "status": line["status"],
+        }
+        for line in points
+    ]
+    return DataFrame(rows, index=[line["index"] for line in points])
+
+
+def _inputs(axes: list[dict[str, Any]], at: Any) -> dict[str, Any]:
+    """Return the varied inputs of a point by their paths; the fields of one axis have one value, or one each."""
+    if isinstance(at, dict):
+        return at
+    inputs: dict[str, Any] = {}
+    for axis, value in zip(axes, at, strict=True):
+        paths = axis["path"] if isinstance(axis["path"], list) else [axis["path"]]
+        inputs |= dict(zip(paths, value if isinstance(value, list) else [value] * len(paths), strict=True))
+    return inputs

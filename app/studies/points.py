@@ -1,7 +1,6 @@
-"""The request that a study varies, and the solution of the points of the study in worker processes.
+"""The request that a study varies, and the solution of its points in worker processes.
 
-A point changes some values of the request. The results at the point are the same as if the changed request were sent to
-the endpoint.
+A point changes some values of the request. Its results are those of the endpoint for the changed request.
 """
 
 import copy
@@ -11,11 +10,12 @@ from collections.abc import Sequence
 from typing import Any, Literal, NamedTuple
 
 from app.calculations import BY_PATH, Calculation
-from app.errors import PROBLEMS, InvalidBody, Unprocessable, faults_of
+from app.errors import PROBLEMS, InvalidBody, OtherSources, Unprocessable, faults_of
 from app.evaluate import evaluate, refuse_endless
 from app.schema.fields import Leaf, headlines, pattern_of, value_at
 from app.schema.model import Request
 from app.schema.reading import validated
+from app.sources import SOURCES
 from app.studies.fields import clear_excluded, scalar_at, set_value
 from app.studies.requests import Overrides
 from solvers.errors import InvalidInput, NoSolution
@@ -25,7 +25,6 @@ from solvers.quantity import UNITS, quantities
 
 Status = Literal["ok", "ok_with_warnings", "no_solution", "refused", "failed"]
 SOLVED = ("ok", "ok_with_warnings")  # statuses of points that have an answer
-CHUNK_SECONDS = 0.25  # computing time of a chunk; after a chunk, the worker can do the work of another client
 COLD = "states.cold."
 
 LEAST_FLOW, MOST_FLOW = (quantities(Cooling)["gear_flow"].bounds[end] for end in ("ge", "le"))
@@ -34,19 +33,14 @@ logger = logging.getLogger("tribodrive")
 
 
 class Point(NamedTuple):
-    """The answer at a point, reduced to the requested outputs.
-
-    `out` holds the values of the requested outputs. `error` is set if the point was refused or failed. `warnings` holds
-    the codes of the warnings, the gravest warning first; `ranks` holds the ranks of these warnings in the same order.
-    `assumptions` is left empty if it would repeat the assumptions at the preceding point of the chunk.
-    """
+    """The answer at a point, reduced to the requested outputs."""
 
     status: Status
-    out: list[Any]
-    warnings: list[str]
-    error: dict[str, str] | None = None
+    out: list[Any]  # values of the requested outputs
+    warnings: list[str]  # codes, the gravest warning first
+    error: dict[str, str] | None = None  # if the point was refused or failed
     assumptions: tuple[dict[str, Any], ...] = ()
-    ranks: tuple[Rank, ...] = ()
+    ranks: tuple[Rank, ...] = ()  # of the warnings, in the same order
 
 
 class Question(NamedTuple):
@@ -57,28 +51,31 @@ class Question(NamedTuple):
     outputs: Sequence[str]
     deadline_s: float
     gear_flow: float | None = None  # l/min, sized once for the base request; every point runs with the same oil pump
+    sources: str = SOURCES  # of the process that asks; every line of the study states this hash
+
+    def refuse_other_sources(self) -> None:
+        """Raise OtherSources in a process with other solvers; asked with every call, as workers join during a study."""
+        if self.sources != SOURCES:
+            raise OtherSources(
+                f"a worker has other solvers (hash {SOURCES}) than the asking process (hash {self.sources}); update it"
+            )
 
     def failed(self, code: str, message: str) -> Point:
-        """Return a point with status `failed`. This status means that the request is not to blame."""
+        """Return a point with status `failed`: the request is not to blame."""
         return Point("failed", [None] * len(self.outputs), [], {"pointer": "", "code": code, "message": message})
 
 
 class BaseRequest(NamedTuple):
-    """An endpoint, and the request to this endpoint that a study varies.
+    """An endpoint, and the request to it that a study varies.
 
-    Some methods take a path, and raise Unprocessable if the path cannot be used. The argument `place` states where the
-    body of the study gives this path; the error reports this location.
+    `place` is where the body of the study gives a path; Unprocessable names it if the path cannot be used.
     """
 
     calculation: Calculation
     body: dict[str, Any]
 
     def leaf(self, path: str, place: str) -> Leaf:
-        """Return the `Leaf` that describes the single value at a path of the request.
-
-        Raises Unprocessable if the path cannot be used, for example because an index in the path is beyond the end of a
-        list.
-        """
+        """Return the `Leaf` of the single value at a path of the request; a list may be too short for the path."""
         leaf = scalar_at(self.calculation.request, path, place, "unknown_path")
         try:
             set_value(self.calculation.request, copy.deepcopy(self.body), path, None)
@@ -88,7 +85,7 @@ class BaseRequest(NamedTuple):
         return leaf
 
     def output(self, path: str, place: str) -> Leaf:
-        """Return the `Leaf` that describes the single value at a path of the answer."""
+        """Return the `Leaf` of the single value at a path of the answer."""
         leaf = scalar_at(self.calculation.response, path, place, "unknown_output")
         if leaf.detail != "summary":
             raise Unprocessable(
@@ -106,10 +103,9 @@ class BaseRequest(NamedTuple):
         return tuple(self.output(path, f"outputs.{number}") for number, path in enumerate(wanted))
 
     def checked(self, first: Overrides) -> Request:
-        """Return the validated request of the first point. `first` holds the values that this point changes.
+        """Return the validated request of the first point, which changes the values `first`.
 
-        Raises InvalidBody if the schema does not allow the request. The locations in the error are locations in the
-        body of the study.
+        The faults of InvalidBody point into the body of the study.
         """
         try:
             return validated(self.calculation.request, with_overrides(self.calculation, self.body, first))
@@ -125,27 +121,20 @@ def check_count(count: int, most: int, place: str) -> None:
 
 
 def check_distinct(paths: Sequence[str], place: str, *, numbered: bool = False) -> None:
-    """Raise Unprocessable if a path is given twice.
-
-    The location of the error is `place`. If `numbered` is True, the index of the second occurrence is added to this
-    location.
-    """
+    """Raise Unprocessable at `place` if a path is given twice; `numbered` adds the index of the second occurrence."""
     for number, path in enumerate(paths):
         if path in paths[:number]:
             raise Unprocessable("duplicate_path", f"{path} is given twice", f"{place}.{number}" if numbered else place)
 
 
 def needs_film(endpoint: str, output: str) -> bool:
-    """Return True if an output needs the thermal film. The film takes more time than all other parts of the answer."""
+    """Return True if an output needs the thermal film, which takes longer than all the rest of the answer."""
     of_the_film = BY_PATH[endpoint].words.of_the_film or ()
     return "thermal_ehl" in output or pattern_of(output.removeprefix(COLD)) in of_the_film
 
 
 def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[str]) -> dict[str, Any]:
-    """Return a request that leaves out calculations that no output needs.
-
-    These calculations are the thermal film and the gear unit in the cold state.
-    """
+    """Return a request without what no output needs: the thermal film and the gear unit in the cold state."""
     if BY_PATH[endpoint].words.of_the_film is None:
         return request
     reduced = copy.deepcopy(request)
@@ -157,10 +146,7 @@ def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[st
 
 
 def with_overrides(calculation: Calculation, base: dict[str, Any], overrides: Overrides) -> dict[str, Any]:
-    """Return a copy of the base request with the values of a point.
-
-    If a point gives a field a value other than None, the fields that exclude this field are removed from the copy.
-    """
+    """Return a copy of the base request with the values of a point, without the fields that these values exclude."""
     body = copy.deepcopy(base)
     for path, value in overrides.items():
         if value is not None:
@@ -176,6 +162,7 @@ def sized_flow(question: Question, first: Overrides) -> float | None:
 
     If the base request leaves out a field that the study varies, the request of the first point is taken.
     """
+    question.refuse_other_sources()
     calculation = BY_PATH[question.endpoint]
     if calculation.pump is None:
         return None
@@ -200,32 +187,31 @@ def _with_flow(question: Question, calculation: Calculation, overrides: Override
 
 
 class Chunk(NamedTuple):
-    """The answers at the first few of the requested points, and the computing time of these answers [s]."""
+    """The answers at the first few of the requested points, and their computing time [s]; None if they were kept."""
 
     points: list[Point]
-    seconds: float
+    seconds: float | None
 
 
-def solve_chunk(question: Question, overrides: Sequence[Overrides]) -> Chunk:
-    """Solve points in order until `CHUNK_SECONDS` have passed. Solve at least one point, and leave out the rest."""
+def solve_chunk(question: Question, overrides: Sequence[Overrides], seconds: float) -> Chunk:
+    """Solve points in order until `seconds` have passed. Solve at least one point, and leave out the rest."""
+    question.refuse_other_sources()
     started = time.perf_counter()
     points: list[Point] = []
     preceding: tuple[dict[str, Any], ...] = ()
     for values in overrides:
         point = solve_point(question, values)
-        points.append(point._replace(assumptions=()) if point.assumptions == preceding else point)
+        if point.assumptions == preceding:
+            point = point._replace(assumptions=preceding)  # one object for all, which is pickled once
+        points.append(point)
         preceding = point.assumptions
-        if time.perf_counter() - started >= CHUNK_SECONDS:
+        if time.perf_counter() - started >= seconds:
             break
     return Chunk(points, time.perf_counter() - started)
 
 
 def solve_point(question: Question, overrides: Overrides) -> Point:
-    """Solve the request of one point, and return the answer as a `Point`.
-
-    If the request is refused, the `Point` has the status `refused`. If another error occurs, such as a fault in the
-    service, the `Point` has the status `failed`.
-    """
+    """Solve one point. Never raises: status `refused` for a bad request, `failed` for a fault of the service."""
     calculation = BY_PATH[question.endpoint]
     try:
         request = validated(calculation.request, with_overrides(calculation, question.base, overrides))

@@ -1,19 +1,16 @@
 """The common parts of all studies.
 
-A pool of processes solves the points of a study. Points are sent to the processes in chunks, but come back in order.
-The answer of a study is a sequence of lines. `Study` is the base class of the kinds of study. A subclass declares the
-endpoint of the study and the model of the body. The subclass also checks the body and makes the lines.
+A pool solves the points of a study in chunks, which come back in order. The answer is a sequence of lines. `Study` is
+the base class of the kinds: a subclass declares endpoint and body, checks the body and makes the lines.
 """
 
-import asyncio
 import json
 import logging
 import time
 from abc import ABC, abstractmethod
 from array import array
 from collections import Counter, deque
-from collections.abc import AsyncGenerator, Callable, Iterable, Sequence
-from contextlib import aclosing
+from collections.abc import AsyncGenerator, Awaitable, Callable, Iterable, Sequence
 from math import nan
 from typing import Any, ClassVar, Protocol
 
@@ -27,22 +24,11 @@ from app.schema.fields import Leaf
 from app.schema.reading import validated
 from app.sources import SOURCES
 from app.studies.fields import is_number
-from app.studies.points import (
-    CHUNK_SECONDS,
-    BaseRequest,
-    Chunk,
-    Point,
-    Question,
-    reduced_request,
-    sized_flow,
-    solve_chunk,
-)
+from app.studies.points import BaseRequest, Chunk, Point, Question, reduced_request, sized_flow, solve_chunk
 from app.studies.requests import Overrides
 from solvers.arrays import FloatArray
 
-CHUNKS_PER_SLOT = 2  # per process: one chunk is solved while another chunk waits, so that no process is idle
 MOST_POINTS_IN_A_CHUNK = 1000  # limit for points that are solved very fast, so that the answer of a chunk stays small
-PROGRESS_S = 2.0  # time between lines of progress; these lines show proxies and users that the study runs
 
 Line = dict[str, Any]
 Lines = AsyncGenerator[list[Line], None]
@@ -50,34 +36,26 @@ Lines = AsyncGenerator[list[Line], None]
 logger = logging.getLogger("tribodrive")
 
 
+class Call(Awaitable[Any], Protocol):
+    """A call in a process. It raises WorkerLost, DeadlineExceeded, PoolLost, and the exceptions of its function."""
+
+    def cancel(self) -> Any:
+        """Take the call back unless it has begun; a call that has begun runs to its end."""
+
+
 class Pool(Protocol):
-    """The processes that solve chunks: the service's own workers, or a cluster."""
+    """What solves chunks: the service's workers, a cluster, or any `map` of a script."""
+
+    chunk_s: float  # usual computing time of a chunk; after a chunk, a process can do the work of another client
+    longest_s: float  # after this time a chunk ends, and what is left of it is sent again
+    ahead: int  # chunks per slot, sent before the first of them is back; with two, no process is idle
 
     @property
     def slots(self) -> int:
         """The number of calls that run at once."""
 
-    def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
-        """Call the function in a process as soon as a process is free, and return the future of the result.
-
-        Cancelling the future cancels a call that has not begun; a call that has begun runs to its end. The future
-        raises WorkerLost, DeadlineExceeded, PoolLost, and the exceptions of the function.
-        """
-
-
-class PoolLost(Exception):
-    """The processes that solve points are lost.
-
-    The study then ends with a line that reports an error. `code` is the code of this error.
-    """
-
-    code = "scheduler_lost"
-
-
-class OtherSources(PoolLost):
-    """The source code of the solvers in a worker differs from the source code of the solvers in the service."""
-
-    code = "other_sources"
+    def submit(self, function: Callable[..., Any], *arguments: Any) -> Call:
+        """Call the function in a process as soon as one is free."""
 
 
 class Clock:
@@ -94,18 +72,18 @@ class Clock:
         return round(time.perf_counter() - self._started, 3)
 
     def line(self) -> Line:
-        """Return a line with the progress of the study."""
+        """Return a line with the progress."""
         return {"type": "progress", "done": self.done, "total": self.total, "elapsed_s": self.elapsed_s}
 
     def error(self, code: str, message: str) -> Line:
-        """Return the line of an error that ends a study early. Log the error, and count the study as unfinished."""
+        """Return the line of an error that ends the study early, log it and count it."""
         STUDIES_UNFINISHED.inc()
         logger.warning("a study ended after %d of %d points: %s", self.done, self.total, message)
         return {"type": "error", "code": code, "message": message, "done": self.done}
 
 
 async def twice_if_lost(pool: Pool, function: Callable[..., Any], *arguments: Any) -> Any:
-    """Call a function in a process of the pool and return its result. If the process is lost, repeat the call once."""
+    """Return the result of a call in a process of the pool; repeat the call once if its process is lost."""
     try:
         return await pool.submit(function, *arguments)
     except WorkerLost:
@@ -115,22 +93,21 @@ async def twice_if_lost(pool: Pool, function: Callable[..., Any], *arguments: An
 async def in_order(
     pool: Pool, question: Question, overrides: Callable[[int], Overrides], indices: range, clock: Clock
 ) -> AsyncGenerator[tuple[range, list[Point]], None]:
-    """Solve the points with the given indices. Yield pairs: a range of indices, and the solved points of this range.
+    """Solve the points with the given indices. Yield ranges of indices in their order, with the points of each.
 
-    The pairs are yielded in the order of the indices. `overrides` takes the index of a point, and returns the values
-    by which the request of this point differs from `question.base`. If a chunk loses its process or exceeds the
-    deadline, the points of the chunk are solved again one by one. If the caller leaves the iteration, chunks that have
-    not begun are cancelled.
+    `overrides` returns the values by which the request of a point differs from `question.base`. If a chunk loses its
+    process or exceeds the deadline, its points are solved again one by one. If the caller leaves the iteration, chunks
+    that have not begun are taken back.
     """
 
-    def submit(some: range) -> tuple[range, asyncio.Future[Chunk]]:
-        return some, pool.submit(solve_chunk, question, [overrides(index) for index in some])
+    def submit(some: range) -> tuple[range, Call]:
+        return some, pool.submit(solve_chunk, question, [overrides(index) for index in some], pool.longest_s)
 
-    pending: deque[tuple[range, asyncio.Future[Chunk]]] = deque()
+    pending: deque[tuple[range, Call]] = deque()
     size, left = 1, indices
     try:
         while left or pending:
-            while left and len(pending) < CHUNKS_PER_SLOT * pool.slots:
+            while left and len(pending) < pool.ahead * pool.slots:
                 # Chunks become smaller towards the end, so that all processes finish together.
                 fair = max(1, min(size, -(-len(left) // (2 * pool.slots))))
                 pending.append(submit(left[:fair]))
@@ -143,8 +120,9 @@ async def in_order(
             done, rest = sent[: len(chunk.points)], sent[len(chunk.points) :]
             if rest:
                 pending.appendleft(submit(rest))
-            seconds = max(chunk.seconds / len(done), CHUNK_SECONDS / MOST_POINTS_IN_A_CHUNK)  # time per point
-            size = max(1, round(CHUNK_SECONDS / seconds))
+            if chunk.seconds is not None:
+                seconds = max(chunk.seconds / len(done), pool.chunk_s / MOST_POINTS_IN_A_CHUNK)  # time per point
+                size = max(1, round(pool.chunk_s / seconds))
             clock.done += len(done)
             yield done, chunk.points
     finally:
@@ -155,17 +133,16 @@ async def in_order(
 async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrides], error: Exception) -> Chunk:
     """Solve the points of a chunk again, one by one, after the chunk failed with `error`.
 
-    If the process that solves a point is lost, solve the point once more. If the chunk has only one point and
-    exceeded the deadline, do not solve this point again.
+    A point that loses its process is solved once more; one that exceeded the deadline alone is not.
     """
     late = question.failed("deadline_exceeded", "this point took longer than the time limit of one calculation")
     if len(overrides) == 1 and isinstance(error, DeadlineExceeded):
-        return Chunk([late], CHUNK_SECONDS)
+        return Chunk([late], pool.chunk_s)
     started = time.perf_counter()
     points: list[Point] = []
     for point_overrides in overrides:
         try:
-            points += (await twice_if_lost(pool, solve_chunk, question, [point_overrides])).points
+            points += (await twice_if_lost(pool, solve_chunk, question, [point_overrides], pool.longest_s)).points
         except WorkerLost:
             points.append(question.failed("worker_lost", "the worker process died every time it calculated this point"))
         except DeadlineExceeded:
@@ -174,20 +151,19 @@ async def _solved_singly(pool: Pool, question: Question, overrides: list[Overrid
 
 
 class Study(ABC):
-    """Base class of the kinds of study. An object of this class is a study whose body has passed all checks.
+    """Base class of the kinds of study: a study whose body has passed all checks.
 
-    The docstring of a subclass is the description of the study's endpoint in the API. A worker constructs the study.
-    The arguments are the content of the body (JSON objects or the validated model), the largest number of points, and
-    the deadline of a point [s]. If a check fails, the constructor raises InvalidBody or Unprocessable. The error names
-    the location of the fault in the body. `outputs` describes the first columns of `Point.out`. A subclass may add
-    further columns.
+    The docstring of a subclass describes the endpoint in the API. The constructor, which runs in a worker, takes the
+    content of the body (JSON objects or the validated model), the largest number of points and the deadline of a point
+    [s]; it raises InvalidBody or Unprocessable with the place of the fault. `outputs` describes the first columns of
+    `Point.out`; a subclass may add further columns.
     """
 
-    path: ClassVar[str]  # path of the study's endpoint; its last part is also the type of the first line
-    summary: ClassVar[str]  # summary of the endpoint in the API
+    path: ClassVar[str]  # of the endpoint; its last part is also the type of the first line
+    summary: ClassVar[str]  # of the endpoint in the API
     answer: ClassVar[str]  # text that lists the lines of the answer
-    model: ClassVar[type[Any]]  # model of the body
-    formats: ClassVar[tuple[str, ...]] = ("ndjson",)  # formats of the answer
+    model: ClassVar[type[Any]]  # of the body
+    formats: ClassVar[tuple[str, ...]] = ("ndjson",)  # of the answer
     most: ClassVar[str] = "most_study_points"  # name of the setting that limits the number of points
     is_reduced: ClassVar[bool] = True  # True if calculations that no output needs are left out
 
@@ -207,7 +183,7 @@ class Study(ABC):
             raise Unprocessable("not_json", message, "request") from None
 
     def _outputs(self, base: BaseRequest) -> tuple[Leaf, ...]:
-        """Return the requested outputs, or the headline numbers if the request names no outputs."""
+        """Return the requested outputs, or else the headline numbers."""
         return base.outputs(self.body.outputs)
 
     async def _size_flow(self, pool: Pool, first: Overrides) -> None:
@@ -217,36 +193,27 @@ class Study(ABC):
 
     @abstractmethod
     def _planned(self, base: BaseRequest, most: int) -> int:
-        """Check the remaining parts of the body and prepare the points.
-
-        Return the number of points, or the largest possible number if the study may end early.
-        """
+        """Check the rest of the body, prepare the points and return their number, the largest if it may end early."""
 
     @abstractmethod
     def lines(self, pool: Pool, clock: Clock) -> Lines:
-        """Yield the lines of the study's answer in groups. A group is yielded as soon as its lines are known.
+        """Yield the lines of the answer in groups, as soon as they are known.
 
-        `guarded` adds the lines of progress.
+        A `map` waits where this function waits for the pool, so it waits for nothing else.
         """
 
     def encoder(self, _: str) -> Callable[[Line], bytes]:
-        """Return the function that converts a line into bytes in the requested format.
-
-        In this class the function always writes JSON. Subclasses with further formats override this method.
-        """
+        """Return the function that writes a line in the requested format: JSON, unless a subclass has others."""
         return json_line
 
     def header(self, **content: Any) -> Line:
-        """Return a line with the given content and with the data that identify the study.
-
-        These data are the type of the line, the endpoint, the versions, and the identifier of the case.
-        """
+        """Return a line with this content and with what identifies the study: type, endpoint, versions and case."""
         identity = {"model_version": MODEL_VERSION, "sources": SOURCES, "case": self.case}
         return {"type": self.path.rpartition("/")[2], "endpoint": self.question.endpoint, **content, **identity}
 
 
 def output_header(leaf: Leaf) -> Line:
-    """Return the path, the unit and the title of an output or input, for a line of a study's answer."""
+    """Return path, unit and title of an output or input, for a line of the answer."""
     return {"path": leaf.path, "unit": leaf.unit, "title": leaf.title}
 
 
@@ -261,10 +228,9 @@ def point_line(index: int, at: Any, point: Point) -> Line:
 
 
 class Tally:
-    """Counter of the points of a study per status, and of the errors and warnings per code.
+    """Counter of the points per status, of errors and warnings per code; it also stores outputs.
 
-    The tally also collects the assumptions and stores outputs. The keys of `assumptions` are the names of the fields.
-    If the assumed value of a field differs between points, the `value` of its assumption is None.
+    It collects the assumptions by their fields; one whose value differs between points has the `value` None.
     """
 
     def __init__(self, outputs: Sequence[str]) -> None:
@@ -276,7 +242,7 @@ class Tally:
         self.outputs = outputs
 
     def add(self, point: Point) -> None:
-        """Count a point, its error and its warnings, and merge its assumptions into `assumptions`."""
+        """Count a point, its error and its warnings, and merge its assumptions."""
         self.counts[point.status] += 1
         if point.error is not None:
             self.errors[point.error["code"]] += 1
@@ -292,46 +258,8 @@ class Tally:
 
     @property
     def values(self) -> FloatArray:
-        """The stored outputs, one row per point. An output that is not a number is NaN."""
+        """The stored outputs, one row per point; NaN if an output is no number."""
         return np.array(self._numbers).reshape(-1, len(self.outputs))
-
-
-async def guarded(lines: Lines, clock: Clock, seconds: float, progress_s: float = PROGRESS_S) -> Lines:
-    """Yield the lines of a study's answer. If no line comes for `progress_s` seconds, yield a line of progress.
-
-    If the study fails, or if the study takes longer than `seconds`, the last line is an error.
-    """
-    async with aclosing(lines):
-        upcoming = asyncio.ensure_future(anext(lines, None))
-        try:
-            while (left := seconds - clock.elapsed_s) > 0.0:
-                done, _ = await asyncio.wait({upcoming}, timeout=min(progress_s, left))
-                if done:
-                    group = upcoming.result()
-                    if group is None:
-                        return
-                    if group:
-                        yield group
-                    upcoming = asyncio.ensure_future(anext(lines, None))
-                elif left > progress_s:
-                    yield [clock.line()]
-            yield [clock.error("study_deadline", f"the study took longer than {seconds:g} s; make the study smaller")]
-        except PoolLost as error:
-            yield [clock.error(error.code, str(error))]
-        except Exception:
-            logger.exception("a study failed")
-            yield [clock.error("internal_error", "something went wrong in the service; the log has the cause")]
-        finally:
-            upcoming.cancel()
-            await asyncio.gather(upcoming, return_exceptions=True)
-
-
-async def encoded(lines: Lines, encode: Callable[[Line], bytes]) -> AsyncGenerator[bytes, None]:
-    """Yield the lines of each group as one bytes object. Skip groups without lines."""
-    async with aclosing(lines):
-        async for group in lines:
-            if piece := b"".join(map(encode, group)):
-                yield piece
 
 
 def json_line(line: Line) -> bytes:

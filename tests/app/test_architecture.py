@@ -54,7 +54,7 @@ def test_every_solver_package_is_found() -> None:
 
 def test_one_module_knows_dask() -> None:
     knowing = [path for path in (ROOT / "app").rglob("*.py") if {"dask", "distributed"} & imported(path)]
-    assert knowing == [ROOT / "app" / "studies" / "cluster.py"]
+    assert knowing == [ROOT / "app" / "workers" / "cluster.py"]
 
 
 def name_of(path: Path) -> str:

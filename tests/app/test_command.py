@@ -1,13 +1,15 @@
-"""The function `answer` and the command `solve` answer requests without a server; `fields` lists all fields."""
+"""Requests and studies without a server: the function `answer`, the command `solve`; `fields` lists all fields."""
 
 import asyncio
 import io
 import json
 import os
+import pty
 import resource
 import socket
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, TextIO
 
@@ -18,7 +20,10 @@ from app.command import main, serve
 from app.errors import InvalidBody, Unprocessable
 from app.evaluate import answer
 from app.settings import Settings
+from app.sources import SOURCES
+from app.studies import study
 from tests.support.server import ROOT, free_port
+from tests.support.studies import timeless
 
 COUPLING: dict[str, Any] = {
     "coupling": {"teeth": 52, "module_mm": 3, "crowning_ratio": 1},
@@ -134,6 +139,78 @@ def test_what_is_refused_says_why(endpoint: str, text: str, message: str) -> Non
     assert refused.returncode == 1
     assert message in refused.stderr
     assert refused.stdout == ""
+
+
+AXIS = {"path": "operation.torque_n_m", "start": 1000, "stop": 3000, "count": 300}
+SWEEP: dict[str, Any] = {
+    "endpoint": "/v1/coupling",
+    "request": COUPLING,
+    "vary": [AXIS],
+    "outputs": ["axial_thrust.force_n"],
+}
+
+
+@pytest.fixture(name="sweep")
+def sweep_file(tmp_path: Path) -> Path:
+    file = tmp_path / "sweep.json"
+    file.write_text(json.dumps(SWEEP))
+    return file
+
+
+@pytest.mark.ci
+def test_a_study_is_lines_or_a_table_and_goes_on(sweep: Path, post: Any) -> None:
+    kept = sweep.with_name("kept.jsonl")
+    for _ in range(2):
+        solved = run("solve", "/v1/sweep", str(sweep), "--kept", str(kept))
+        assert (solved.returncode, solved.stderr) == (0, "")
+        lines = [json.loads(line) for line in solved.stdout.splitlines()]
+        assert timeless(lines) == timeless(list(study("/v1/sweep", SWEEP)))
+    table = run("solve", "/v1/sweep", str(sweep), "--kept", str(kept), "--csv").stdout
+    assert table == post("/v1/sweep?format=csv", SWEEP).text.replace("\r\n", "\n")
+    kept.write_text(kept.read_text("utf-8").replace(SOURCES, "0" * 64), "utf-8")
+    refused = run("solve", "/v1/sweep", str(sweep), "--kept", str(kept))
+    assert (refused.returncode, refused.stdout, len(refused.stderr.splitlines())) == (1, "", 1)
+    assert SOURCES in refused.stderr
+    assert "0" * 64 in refused.stderr
+
+
+@pytest.mark.ci
+def test_a_study_shows_its_progress_on_a_terminal_and_stops_with_its_reader(sweep: Path) -> None:
+    terminal, end = pty.openpty()
+    with subprocess.Popen(
+        [sys.executable, "-m", "app", "solve", "/v1/sweep", str(sweep)], stdout=subprocess.PIPE, stderr=end, cwd=ROOT
+    ) as process:
+        os.close(end)
+        assert process.stdout is not None
+        assert process.stdout.readline().startswith(b'{"type":"sweep"')
+        process.stdout.close()
+        shown = b""
+        with suppress(OSError):  # the terminal is closed at the end
+            while part := os.read(terminal, 1000):
+                shown += part
+    assert process.returncode == 0
+    assert b"of 300 points" in shown
+    os.close(terminal)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("/v1/coupling", "--csv"), "the answer of /v1/coupling is no table; leave out --csv"),
+        (("/v1/spectrum", "--csv"), "the answer of /v1/spectrum is no table; leave out --csv"),
+        (("/v1/coupling", "--kept", "x"), "/v1/coupling is no study; leave out --kept"),
+        (("/v1/sweeps",), "there is no endpoint /v1/sweeps; the endpoints are /v1/coupling, "),
+        (("/v1/sweep",), "/endpoint is required"),
+    ],
+)
+def test_a_study_that_cannot_be_printed_is_told(
+    arguments: tuple[str, ...], message: str, case: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    endpoint, *options = arguments
+    monkeypatch.setattr(sys, "argv", ["tribodrive", "solve", endpoint, str(case), *options])
+    with pytest.raises(SystemExit) as ended:
+        main()
+    assert message in str(ended.value.code)
 
 
 def test_a_taken_port_is_one_line() -> None:

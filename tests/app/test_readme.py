@@ -1,6 +1,10 @@
 """The Python examples of the README and of the chapter on the service run as they are, but for the address."""
 
+import json
+import os
 import re
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -44,7 +48,7 @@ def test_a_single_request(server: str) -> None:
 
 
 def test_a_sweep_into_pandas(server: str) -> None:
-    (snippet,) = (each for each in SNIPPETS if ".frame()" in each)
+    (snippet,) = (each for each in SNIPPETS if "service.sweep" in each)
     names = run(snippet, server)
     table = names["table"]
     assert table.columns[0] == "modifications.helix_slope_um"
@@ -67,3 +71,17 @@ def test_a_flash_temperature_without_a_server() -> None:
     assert result.flash.blok_max == pytest.approx(answered["flash"]["blok_max_k"], rel=1e-9)
     assert result.safety.blok_factor == pytest.approx(answered["safety"]["blok_factor"], rel=1e-9)
     assert result.distribution.friction_loss.power == pytest.approx(answered["friction_loss"]["power_w"], rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("part", "count"), [("ProcessPoolExecutor", 2048), ("LocalCluster", 64)], ids=["processes", "dask"]
+)
+def test_a_study_in_a_script_keeps_its_points(part: str, count: int, tmp_path: Path) -> None:
+    (snippet,) = (each for each in SNIPPETS if part in each)
+    script = tmp_path / "script.py"
+    script.write_text(snippet, "utf-8")
+    environment = {**os.environ, "PYTHONPATH": str(ROOT), "OPENBLAS_NUM_THREADS": "1"}
+    subprocess.run([sys.executable, script], cwd=tmp_path, env=environment, check=True)
+    head, *points = map(json.loads, (tmp_path / "points.jsonl").read_text("utf-8").splitlines())
+    assert head["type"] == "kept"
+    assert len({point["case"] for point in points}) == len(points) == count

@@ -1,27 +1,36 @@
 """Studies on a real Dask cluster of processes give the same lines in the same order as studies in one process.
 
-If a worker is lost, the study still gives all lines. If the scheduler is lost, the stream ends with an error line.
+The service has a connection to the cluster; a script has a client of its own. If a worker is lost, the study still
+gives all lines. If the scheduler is lost, the stream of the service ends with an error line, and a script goes on from
+the points that it kept.
 """
 
 import json
 import shutil
 import signal
+import subprocess
 import threading
 import time
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
+from itertools import islice
 from pathlib import Path
 from typing import Any
 
+import dask
 import httpx
 import pytest
+from distributed import Client, LocalCluster, Worker
 
 from app.examples import examples, study_bodies
+from app.studies import PoolLost, study
 from app.studies.kinds.spectrum import Spectrum
 from app.studies.kinds.sweep import Sweep
+from app.workers.cluster import Kernels
+from solvers.compiled import announcement
 from solvers.digest import digest_of
 from tests.support.dask_cluster import DaskProcesses, running_cluster
-from tests.support.server import ROOT, Server, free_port, running_server
+from tests.support.server import ROOT, Server, free_port, running_server, wait_until
 from tests.support.studies import Planner, lines_of, study_of, timeless
 
 pytestmark = [pytest.mark.service, pytest.mark.ci]
@@ -184,3 +193,97 @@ def test_without_a_scheduler_studies_wait_and_single_requests_do_not() -> None:
     with served(f"tcp://127.0.0.1:{free_port()}") as (_, address):
         assert_unavailable(address)
         assert httpx.post(f"{address}/v1/coupling", json=COUPLING.request, timeout=60).status_code == 200
+
+
+@pytest.fixture
+def client(service: Service) -> Iterator[Client]:
+    cluster, _ = service
+    with Client(cluster.address, set_as_default=False) as client:
+        yield client
+
+
+@pytest.mark.parametrize("kind", SWEEPS)
+def test_a_script_with_a_client_of_its_own(client: Client, kind: str) -> None:
+    assert timeless(list(study("/v1/sweep", SWEEPS[kind], map=client.map))) == local(SWEEPS[kind])
+
+
+def test_a_spectrum_of_a_script(client: Client) -> None:
+    assert timeless(list(study("/v1/spectrum", SPECTRUM, map=client.map))) == local(SPECTRUM, Spectrum)
+
+
+def test_a_script_loses_a_worker_and_leaves_nothing_behind(service: Service, client: Client) -> None:
+    cluster, _ = service
+    found = iter(study("/v1/sweep", loads(400), map=client.map))
+    received = [next(found) for _ in range(20)]
+    cluster.workers.pop().kill()
+    assert timeless([*received, *found]) == local(loads(400))
+    cluster.add_worker()
+    cluster.wait()
+    wait_until(lambda: not client.who_has() and not any(client.processing().values()))
+
+
+def test_a_worker_that_joins_loads_the_kernels_first(service: Service, client: Client) -> None:
+    cluster, _ = service
+    client.register_plugin(Kernels(COUPLING.endpoint))
+    cluster.add_worker()
+    cluster.wait()
+    assert all(client.run(loaded_kernels).values())
+    cluster.workers.pop().terminate()
+
+
+def loaded_kernels(dask_worker: Worker) -> bool:
+    """Return True if kernels are loaded in the worker in which this function runs."""
+    return "tribodrive-kernels" in dask_worker.plugins and any(kernel.signatures for kernel in announcement._kernels)
+
+
+def test_a_script_goes_on_with_another_client_and_another_scheduler(tmp_path: Path) -> None:
+    kept, body = tmp_path / "kept.jsonl", loads(400)
+    with running_cluster(1) as cluster:
+        with Client(cluster.address, set_as_default=False) as client:
+            list(islice(study("/v1/sweep", body, map=client.map, kept=kept), 50))
+        solved = len(kept.read_bytes().splitlines())
+        with Client(cluster.address, set_as_default=False) as client:
+            found = iter(study("/v1/sweep", body, map=client.map, kept=kept))
+            received = [next(found) for _ in range(solved + 50)]
+            cluster.scheduler.kill()
+            with pytest.raises(PoolLost, match="kept"):
+                received.extend(found)
+    assert solved + 50 <= len(kept.read_bytes().splitlines()) < 401
+    with running_cluster(1) as cluster, Client(cluster.address, set_as_default=False) as client:
+        assert timeless(list(study("/v1/sweep", body, map=client.map, kept=kept))) == local(body)
+
+
+def test_an_adaptive_cluster_grows_with_a_study() -> None:
+    with LocalCluster(n_workers=0, threads_per_worker=1, dashboard_address=None) as cluster:  # noqa: SIM117
+        with Client(cluster, set_as_default=False) as client:
+            cluster.adapt(minimum=1, maximum=2, interval="200ms", target_duration="1s")
+            most = 0
+            for _ in study("/v1/sweep", loads(2500), map=client.map):
+                if (most := max(most, len(cluster.scheduler_info["workers"]))) == 2:
+                    break
+            assert most == 2
+
+
+@pytest.fixture
+def certificate(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Set Dask's own variables to a new certificate, which every process of the cluster must have."""
+    key, signed = tmp_path / "key.pem", tmp_path / "signed.pem"
+    making = f"openssl req -x509 -newkey rsa:2048 -nodes -subj /CN=cluster -days 2 -keyout {key} -out {signed}"
+    subprocess.run(making.split(), check=True, capture_output=True)
+    monkeypatch.setenv("DASK_DISTRIBUTED__COMM__TLS__CA_FILE", str(signed))
+    for part in ("SCHEDULER", "WORKER", "CLIENT"):
+        monkeypatch.setenv(f"DASK_DISTRIBUTED__COMM__TLS__{part}__CERT", str(signed))
+        monkeypatch.setenv(f"DASK_DISTRIBUTED__COMM__TLS__{part}__KEY", str(key))
+    dask.config.refresh()
+    yield
+    monkeypatch.undo()
+    dask.config.refresh()
+
+
+@pytest.mark.usefixtures("certificate")
+def test_a_cluster_with_tls_by_dasks_own_configuration() -> None:
+    with running_cluster(1, "tls") as cluster:
+        with Client(cluster.address, set_as_default=False) as client:
+            assert timeless(list(study("/v1/sweep", SWEEPS["cases"], map=client.map))) == local(SWEEPS["cases"])
+        with served(cluster.address) as (_, address):
+            assert sweep(address, SWEEPS["cases"]) == local(SWEEPS["cases"])

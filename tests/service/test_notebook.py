@@ -20,6 +20,7 @@ RUN = "import sys; from nbclient.cli import main; sys.exit(main())"  # in a proc
     [
         ("solvers", 4, ("permissible: 0.1 to 100 mm", "blok_factor=")),
         ("models", 8, ("flash temperature [K]: by hand", "Grind a helix slope of")),
+        ("studies", 1, ("of 2000 points are kept", "in all {'ok", "exceeds 2.5 kN in")),
     ],
 )
 def test_the_notebook_runs_and_draws(name: str, figures: int, expected: tuple[str, ...], tmp_path: Path) -> None:

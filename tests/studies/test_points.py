@@ -51,7 +51,7 @@ def test_points_are_the_endpoints_own_answers(name: str) -> None:
         {path: factor * base} for factor in ((0.97,) if endpoint in SLOW else (0.97, 1.03))
     ]
     question = Question(endpoint, request, outputs, 30.0)
-    found = [point for each in overrides for point in solve_chunk(question, [each]).points]
+    found = [point for each in overrides for point in solve_chunk(question, [each], 0.25).points]
     assert len({json.dumps(point.out) for point in found}) == len(overrides)
     for each, point in zip(overrides, found, strict=True):
         body = with_overrides(calculation, request, each) | {"detail": "curves"}
@@ -103,13 +103,13 @@ def test_a_code_counts_once_at_a_point() -> None:
     answer = json.loads(written(evaluate(calculation, calculation.request.model_validate(base))))
     codes = [warning["code"] for warning in answer["warnings"]]
     assert codes.count("oil_limited") == 2
-    (point,) = solve_chunk(Question(pair.endpoint, base, ["safety.blok_factor"], 30.0), [{}]).points
+    (point,) = solve_chunk(Question(pair.endpoint, base, ["safety.blok_factor"], 30.0), [{}], 0.25).points
     assert point.warnings.count("oil_limited") == 1
     assert len(point.ranks) == len(point.warnings)
 
 
 def one(overrides: dict[str, Any], *, base: dict[str, Any] = LOADS.request, deadline_s: float = 30.0) -> points.Point:
-    (point,) = solve_chunk(Question(LOADS.endpoint, base, ["pressure.max_mpa"], deadline_s), [overrides]).points
+    (point,) = solve_chunk(Question(LOADS.endpoint, base, ["pressure.max_mpa"], deadline_s), [overrides], 0.25).points
     return point
 
 
@@ -134,7 +134,7 @@ def test_what_two_fields_refuse_together_is_a_point() -> None:
 def test_what_cannot_finish_is_a_point() -> None:
     example = examples()["xue-pair-1-thermal"]
     body = {**example.request, "model": {"nodes": 481, "film_nodes": 61}}
-    (point,) = solve_chunk(Question(example.endpoint, body, [], 30.0), [{"model.path_points": 500}]).points
+    (point,) = solve_chunk(Question(example.endpoint, body, [], 30.0), [{"model.path_points": 500}], 0.25).points
     assert point.error is not None
     assert (point.error["pointer"], point.error["code"]) == ("/model/path_points", "cannot_finish")
 
@@ -143,7 +143,7 @@ def test_no_solution_is_a_point() -> None:
     contact = {"line_load_n_per_mm": 68.0028, "radius_mm": 5, "speed_1_m_per_s": 10.5, "speed_2_m_per_s": 9.5}
     body = {"contact": contact, "lubricant": {"viscosity_pa_s": 0.08}, "model": {"rheology": "newtonian"}}
     question = Question("/v1/scuffing/line-contact", body, ["film.minimum_um", "status"], 30.0)
-    (point,) = solve_chunk(question, [{}]).points
+    (point,) = solve_chunk(question, [{}], 0.25).points
     assert (point.status, point.out) == ("no_solution", [None, "no_solution"])
 
 
@@ -173,11 +173,14 @@ def test_an_exclusive_field_clears_its_fellow_in_the_base() -> None:
         assert one({f"load.{path}": 20.0}, base=given).status in {"ok", "ok_with_warnings"}
 
 
-def test_assumptions_are_sent_where_they_change() -> None:
+def test_equal_assumptions_are_one_object_which_is_sent_once() -> None:
     question = Question("/v1/coupling", examples()["pahl-axial-displacement"].request, [], 30.0)
     torque, friction = "operation.torque_n_m", "friction.coefficient"
-    found = solve_chunk(question, [{torque: 3000}, {torque: 3001}, {friction: None}, {friction: None}]).points
-    assert [bool(point.assumptions) for point in found] == [True, False, True, False]
+    points = [{torque: 3000}, {torque: 3001}, {friction: None}, {friction: None}]
+    first, second, third, fourth = (point.assumptions for point in solve_chunk(question, points, 0.25).points)
+    assert first is second
+    assert third is fourth
+    assert first != third
 
 
 def test_a_chunk_ends_after_its_time(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -185,4 +188,4 @@ def test_a_chunk_ends_after_its_time(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("app.studies.points.time.perf_counter", lambda: 0.1 * next(clock))
     question = Question("/v1/coupling", examples()["pahl-axial-displacement"].request, ["axial_thrust.force_n"], 30.0)
     speeds = [{"operation.speed_rpm": 1000 + index} for index in range(10)]
-    assert len(solve_chunk(question, speeds).points) == 3
+    assert len(solve_chunk(question, speeds, 0.25).points) == 3

@@ -5,9 +5,9 @@ from contextlib import aclosing
 
 import pytest
 
-from app.errors import DeadlineExceeded, WorkerLost
-from app.studies.points import CHUNK_SECONDS, Point
-from app.studies.runner import CHUNKS_PER_SLOT, Clock, PoolLost, in_order
+from app.errors import DeadlineExceeded, PoolLost, WorkerLost
+from app.studies.points import Point
+from app.studies.runner import Clock, in_order
 from tests.support.pools import QUESTION, ScriptedPool, at
 
 
@@ -48,7 +48,7 @@ def test_chunks_take_about_their_time(seconds: float, size: int) -> None:
     pool = ScriptedPool(seconds=seconds)
     solved(pool, 10_000 if seconds < 0.01 else 200)
     assert max(map(len, pool.calls)) == size
-    assert size * seconds <= max(CHUNK_SECONDS, seconds)
+    assert size * seconds <= max(pool.chunk_s, seconds)
 
 
 def test_all_processes_finish_together() -> None:
@@ -67,7 +67,7 @@ def test_no_more_is_begun_than_the_processes_need() -> None:
                 await anext(points)
 
     asyncio.run(run())
-    assert len(pool.calls) == 3 * CHUNKS_PER_SLOT
+    assert len(pool.calls) == 3 * pool.ahead
 
 
 @pytest.mark.parametrize("place", [0, 5, 99])

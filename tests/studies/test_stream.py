@@ -8,8 +8,10 @@ import pytest
 from prometheus_client import REGISTRY
 from starlette.types import Message
 
+from app.errors import PoolLost
 from app.http.routes.studies import StudyStream
-from app.studies.runner import Clock, Line, PoolLost, guarded
+from app.http.streams import guarded
+from app.studies.runner import Clock, Line
 
 
 def lines_of(*steps: float | Exception, progress_s: float = 2.0) -> list[Line]:

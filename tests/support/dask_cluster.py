@@ -12,7 +12,7 @@ from distributed import Client
 
 from tests.support.server import ROOT, free_port
 
-ENVIRONMENT = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1"}
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1", "NUMBA_NUM_THREADS": "1"}
 START_S = 60.0
 
 
@@ -20,7 +20,7 @@ START_S = 60.0
 def _process(*arguments: str, root: Path = ROOT) -> Iterator[subprocess.Popen[bytes]]:
     process = subprocess.Popen(
         [sys.executable, "-m", *arguments],
-        env={**ENVIRONMENT, "PYTHONPATH": str(root)},
+        env={**os.environ, **ONE_THREAD, "PYTHONPATH": str(root)},
         cwd=root,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
@@ -38,11 +38,11 @@ def _process(*arguments: str, root: Path = ROOT) -> Iterator[subprocess.Popen[by
 class DaskProcesses:
     """This object holds a Dask scheduler process, the address of the scheduler, and the worker processes."""
 
-    def __init__(self, stack: ExitStack) -> None:
+    def __init__(self, stack: ExitStack, protocol: str) -> None:
         port = free_port()
-        self.address = f"tcp://127.0.0.1:{port}"
+        self.address = f"{protocol}://127.0.0.1:{port}"
         self._stack = stack
-        options = ("--host", "127.0.0.1", "--port", str(port), "--no-dashboard", "--no-show")
+        options = ("--host", f"{protocol}://127.0.0.1:{port}", "--no-dashboard", "--no-show")
         self.scheduler = stack.enter_context(_process("distributed.cli.dask_scheduler", *options))
         self.workers: list[subprocess.Popen[bytes]] = []
 
@@ -69,10 +69,10 @@ class DaskProcesses:
 
 
 @contextmanager
-def running_cluster(workers: int) -> Iterator[DaskProcesses]:
+def running_cluster(workers: int, protocol: str = "tcp") -> Iterator[DaskProcesses]:
     """Start a scheduler and workers, each in a process of its own, and end the processes on exit."""
     with ExitStack() as stack:
-        cluster = DaskProcesses(stack)
+        cluster = DaskProcesses(stack, protocol)
         for _ in range(workers):
             cluster.add_worker()
         cluster.wait()

@@ -63,13 +63,13 @@ def solve_point_after_a_pause(question: Question, overrides: Overrides) -> Point
     return solve_point(question, overrides)
 
 
-def solve_chunk_with_pauses(question: Question, overrides: Sequence[Overrides]) -> Chunk:
+def solve_chunk_with_pauses(question: Question, overrides: Sequence[Overrides], seconds: float) -> Chunk:
     """Solve a chunk of points in a worker, with a pause before some of the points.
 
     Like any other chunk, the chunk ends after the point at which it has taken long enough.
     """
     with patch.object(points, "solve_point", solve_point_after_a_pause):
-        return solve_chunk(question, overrides)
+        return solve_chunk(question, overrides, seconds)
 
 
 def create_faulty_app() -> FastAPI:

@@ -6,10 +6,10 @@ from threading import Lock
 import httpx
 from cachetools import LRUCache
 
+from app.http.admission import StudyAdmission
 from app.main import app
 from app.models.kernels import KERNEL_GROUPS
 from app.settings import MEBIBYTE, settings
-from app.studies.admission import StudyAdmission
 from app.workers.start_up import StartUp
 from tests.support.pools import InlineWorkers
 

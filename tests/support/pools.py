@@ -14,6 +14,9 @@ from app.workers.pool import Job, Pool
 class InlinePool:
     """This pool of a study calculates as soon as a calculation is submitted."""
 
+    chunk_s = longest_s = 0.25
+    ahead = 2
+
     def __init__(self, slots: int = 1) -> None:
         self.slots = slots
 
@@ -47,6 +50,9 @@ class ScriptedPool:
     with a point in `holds` is never answered. The pool reports a computing time of `seconds` per point. The pool
     solves at most `most` of the points of a call.
     """
+
+    chunk_s = longest_s = 0.25
+    ahead = 2
 
     def __init__(
         self,

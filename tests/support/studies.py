@@ -9,7 +9,8 @@ import pytest
 
 from app.errors import InvalidBody, Unprocessable, faults_of
 from app.examples import examples
-from app.studies.runner import Clock, Pool, Study, encoded, guarded, json_line
+from app.http.streams import encoded, guarded
+from app.studies.runner import Clock, Pool, Study, json_line
 from tests.support.pools import InlinePool
 
 Planner = Callable[[Any, int, float], Study]

@@ -16,8 +16,9 @@ from app.calculations import BY_PATH
 from app.examples import study_bodies
 from app.http.json_route import JsonRoute
 from app.http.problems import documented
+from app.http.streams import PROGRESS_S, encoded, guarded
 from app.studies.kinds import KINDS
-from app.studies.runner import PROGRESS_S, Clock, Lines, Study, encoded, guarded
+from app.studies.runner import Clock, Lines, Study
 
 Format = Literal["ndjson", "csv"]
 MEDIA_TYPES: dict[Format, str] = {"ndjson": "application/x-ndjson", "csv": "text/csv"}

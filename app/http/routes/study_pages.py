@@ -14,6 +14,7 @@ from app.calculations import CALCULATIONS, Calculation
 from app.errors import StudyEnded
 from app.http.routes import pages
 from app.http.routes.studies import MEDIA_TYPES, begun, planned, streamed
+from app.http.streams import encoded
 from app.pages.cases import Asked
 from app.pages.studies import PAGES
 from app.pages.studies import page as study_page
@@ -21,7 +22,7 @@ from app.pages.studies.page import StudyPage
 from app.pages.studies.stream import pieces, report_pieces
 from app.pages.study_links import study_links
 from app.pages.templating import page_path
-from app.studies.runner import encoded, twice_if_lost
+from app.studies.runner import twice_if_lost
 from app.workers.pool import unless_gone
 
 LINE_TYPES = {str(name): media for name, media in MEDIA_TYPES.items()}

@@ -1,6 +1,7 @@
-"""Studies on a Dask cluster: the workers of the cluster solve the points, and the service's own workers do not.
+"""Studies on a Dask cluster: kernels for its workers, and the service's own connection to it.
 
-Only this module imports Dask. Dask is an optional dependency: `pip install 'tribodrive[dask]'`.
+Only this module imports Dask. Dask is an optional dependency: `pip install 'tribodrive[dask]'`. TLS is the matter of
+Dask's own configuration.
 """
 
 import asyncio
@@ -9,43 +10,67 @@ from collections.abc import Callable
 from importlib.metadata import version
 from typing import Any
 
-from distributed import Client, KilledWorker
+from distributed import Client, KilledWorker, Worker, WorkerPlugin
 
-from app.errors import SchedulerUnavailable, WorkerLost
+from app.calculations import BY_PATH
+from app.errors import PoolLost, SchedulerUnavailable, WorkerLost
 from app.evaluate import warm
 from app.models.kernels import KERNEL_GROUPS
 from app.sources import SOURCES
-from app.studies.runner import OtherSources, PoolLost
 
 CONNECT_S = 10.0  # longest time of one call to the scheduler
 ANSWER_S = 15.0  # longest time of the first two calls together: one call connects, the other lists the workers
-WARM_S = 600.0  # longest time in which a worker loads its kernels; the worker may have to compile the kernels first
 WATCH_S = 0.5  # during a call, the connection to the scheduler is checked at intervals of this length
 PACKAGES = ("tribodrive", "numpy", "scipy", "numba", "pydantic")  # packages whose versions change the results
 LOST = "the connection to the Dask scheduler is lost; start the study again"
 
 
-class DaskCluster:
-    """A Dask cluster. Its workers must have the same package versions as this service.
+class Kernels(WorkerPlugin):
+    """Compiles the kernels of calculations in every worker of a cluster, also in one that joins later, or loads them.
 
-    Every worker loads the kernels of the solvers before it solves points.
+    Parameters
+    ----------
+    *endpoints : str
+        Addresses of the calculations, such as "/v1/drive-train". By default all.
     """
+
+    name = "tribodrive-kernels"
+
+    def __init__(self, *endpoints: str) -> None:
+        self.endpoints = endpoints
+
+    async def setup(self, worker: Worker) -> None:
+        """Load the kernels in the thread that solves, so that the worker goes on answering the scheduler."""
+        await asyncio.get_running_loop().run_in_executor(worker.executors["default"], self.load)
+
+    def load(self) -> None:
+        """Load the kernels into this process."""
+        named = {group for endpoint in self.endpoints for group in BY_PATH[endpoint].kernels.of()}
+        for group in KERNEL_GROUPS:
+            if group in named or not self.endpoints:
+                warm(group)
+
+
+class DaskCluster:
+    """The cluster at an address. Its workers must have the package versions of this service."""
+
+    chunk_s, longest_s, ahead = 0.5, 2.0, 2
 
     def __init__(self, address: str, deadline_s: float) -> None:
         self._address = address
         self._deadline_s = deadline_s
         self._client: Client | None = None
-        self._prepared: set[str] = set()
+        self._checked: set[str] = set()
         self._preparation: asyncio.Task[None] | None = None
         self._answered = False
         self.slots = 1
 
     async def ready(self) -> "DaskCluster":
-        """Wait until the cluster is connected and every worker is prepared, and return the cluster.
+        """Wait until the cluster is connected and its workers are prepared, and return the cluster.
 
-        Raises SchedulerUnavailable if the scheduler cannot be used or does not answer in time, or if the preparation of
-        the workers takes too long. A call to the scheduler cannot be cancelled. When time runs out, the preparation
-        therefore continues after the error. Only one preparation runs at a time.
+        Raises SchedulerUnavailable if the scheduler does not answer or cannot be used, or if the preparation takes too
+        long. A call to the scheduler cannot be cancelled: the preparation continues after the error. Only one runs at
+        a time.
         """
         if self._preparation is None or self._preparation.done():
             self._answered = False
@@ -68,10 +93,7 @@ class DaskCluster:
             raise SchedulerUnavailable(f"The Dask scheduler cannot be used: {reason}") from error
 
     def _prepare(self) -> None:
-        """Connect to the scheduler, check the versions of all new workers, and load the kernels in these workers.
-
-        This call blocks.
-        """
+        """Connect to the scheduler, check the versions of new workers, and have kernels loaded. This call blocks."""
         if self._client is None or self._client.status != "running":
             self.close()
             self._client = Client(self._address, timeout=CONNECT_S, set_as_default=False)
@@ -80,32 +102,23 @@ class DaskCluster:
         self._answered = True
         if not threads:
             raise ValueError("it has no workers")
-        new = set(threads) - self._prepared
-        for worker, theirs in self._call_on(versions, new).items():
+        for worker, theirs in self._client.run(versions, workers=[*set(threads) - self._checked]).items():
             if theirs != versions():
                 raise ValueError(f"its worker {worker} has other versions {theirs} than the service {versions()}")
-        self._call_on(prepare, new)
-        self._prepared |= new
+        if not self._checked:
+            self._client.register_plugin(Kernels())
+        self._checked |= set(threads)
         self.slots = sum(threads.values())
 
-    def _call_on(self, function: Callable[[], Any], workers: set[str]) -> dict[str, Any]:
-        """Call a function on each of the workers, and wait for the results. Return a result for each worker."""
-        assert self._client is not None
-        calls = {name: self._client.submit(function, workers=[name], pure=False, retries=0) for name in workers}
-        return {name: call.result(timeout=WARM_S) for name, call in calls.items()}
-
     def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
-        """Send a call to the cluster and return a future of the call's result.
-
-        If the future is cancelled before the call has begun, the call is also cancelled.
-        """
+        """Send a call to the cluster and return the future of its result. Dask repeats it if its worker is lost."""
         return asyncio.ensure_future(self._result(function, *arguments))
 
     async def _result(self, function: Callable[..., Any], *arguments: Any) -> Any:
         client = self._client
         if client is None or client.status != "running":
             raise PoolLost(LOST)
-        future = client.get_executor(pure=False, retries=0).submit(solved_with, SOURCES, function, *arguments)
+        future = client.get_executor(pure=False, retries=0).submit(function, *arguments)
         try:
             while not future.done():
                 await asyncio.wait({asyncio.wrap_future(future)}, timeout=WATCH_S)
@@ -119,34 +132,14 @@ class DaskCluster:
 
     def close(self) -> None:
         """Disconnect from the cluster. This call blocks."""
-        self._prepared.clear()
+        self._checked.clear()
         if self._client is not None:
             self._client.close(timeout=1)
             self._client = None
 
 
-def prepare() -> None:
-    """Load all kernels into the worker that runs this function."""
-    for group in KERNEL_GROUPS:
-        warm(group)
-
-
-def solved_with(sources: str, function: Callable[..., Any], *arguments: Any) -> Any:
-    """Call a function in a worker of the cluster and return the result of the function.
-
-    `sources` is the hash of the source code of the service's solvers. Raises OtherSources if the worker's solvers have
-    another hash, because answers state the hash of the service. Every call checks the hash, because a worker may join
-    the cluster during the study.
-    """
-    if sources != SOURCES:
-        raise OtherSources(
-            f"a Dask worker has other solvers (hash {SOURCES}) than the service (hash {sources}); update the worker"
-        )
-    return function(*arguments)
-
-
 def versions() -> dict[str, str]:
-    """Return the versions on which the results depend: the versions of Python, of the solvers and of `PACKAGES`."""
+    """Return the versions on which results depend: those of Python, of the solvers and of `PACKAGES`."""
     return {
         "python": platform.python_version(),
         "sources": SOURCES,

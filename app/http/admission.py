@@ -1,7 +1,4 @@
-"""Admission of studies.
-
-The number of studies that run at once is limited. The studies run on the service's own workers or on a cluster.
-"""
+"""Admission of studies: how many run at once, and on the service's own workers or on a cluster."""
 
 import asyncio
 import logging
@@ -16,26 +13,23 @@ from app.studies.runner import Pool
 from app.workers.pool import Pool as WorkerPool
 
 if TYPE_CHECKING:
-    from app.studies.cluster import DaskCluster
+    from app.workers.cluster import DaskCluster
 
 logger = logging.getLogger("tribodrive")
 
 
 class StudyPool:
-    """The workers of the service, as used by one study.
+    """The workers of the service, as used by one study, which counts as one client."""
 
-    A free worker gets the next call of the study or client that has the fewest running calls.
-    """
+    chunk_s = longest_s = 0.25
+    ahead = 2
 
     def __init__(self, workers: WorkerPool) -> None:
         self._workers = workers
         self.slots = workers.size
 
     def submit(self, function: Callable[..., Any], *arguments: Any) -> asyncio.Future[Any]:
-        """Call the function in a worker as soon as a worker is free, and return the future of the function's result.
-
-        The future raises WorkerLost, DeadlineExceeded, and the exceptions of the function.
-        """
+        """Call the function in a worker as soon as one is free, and return the future of its result."""
         return self._workers.submit(self, function, *arguments, is_single=False).outcome
 
 
@@ -48,7 +42,7 @@ class StudyAdmission:
         self._running = 0
         self._cluster: DaskCluster | None = None
         if settings.scheduler:
-            from app.studies import cluster  # noqa: PLC0415  Dask is an extra, and its import takes a second
+            from app.workers import cluster  # noqa: PLC0415  Dask is an extra, and its import takes a second
 
             self._cluster = cluster.DaskCluster(settings.scheduler, settings.study_deadline_s)
 
@@ -65,17 +59,13 @@ class StudyAdmission:
             self._running -= 1
 
     def own(self) -> Pool:
-        """Return the workers of the service, for use by one study.
-
-        The figures of a study are drawn by these workers, even if a cluster solves the points of the study.
-        """
+        """Return the workers of the service, which draw the figures of a study even if a cluster solves its points."""
         return StudyPool(self._workers)
 
     async def pool(self) -> Pool:
-        """Return the pool that solves the points of a study.
+        """Return what solves the points of a study: the cluster of the settings, else the workers of the service.
 
-        The pool is the cluster if the settings name a cluster, and otherwise the workers of the service. Raises
-        SchedulerUnavailable if the cluster cannot be used.
+        Raises SchedulerUnavailable if the cluster cannot be used.
         """
         if self._cluster is None:
             return self.own()
@@ -83,10 +73,7 @@ class StudyAdmission:
 
     @asynccontextmanager
     async def open(self) -> AsyncIterator[None]:
-        """Connect to the cluster in the background, so that the first study need not wait for the connection.
-
-        Disconnect from the cluster when the context closes.
-        """
+        """Connect to the cluster in the background, for the first study; disconnect when the context closes."""
         preparation = asyncio.create_task(self._prepare())
         try:
             yield
