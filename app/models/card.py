@@ -76,8 +76,12 @@ class FromFile:
 class Words:
     """What pages, studies and files say of an endpoint's answers. Paths are dotted paths of the answer.
 
-    verdicts       judges headline numbers that need more than a limit, by path
-    conclusion     the answer in words, one statement a line
+    verdict        judges the answer as a whole: the first sentence that a reader sees
+    verdicts       judges headline numbers and tiles that need more than a limit, by path
+    conclusion     what else the answer says, one statement a line
+    tiles          further numbers that stand beside the headline numbers, by path
+    touches        the headline numbers and tiles that a warning concerns, by the warning's code; all of them for a
+                   code that is missing here
     belongs        what headline numbers belong to, by path, such as the helix that decides
     remarks        how well results are known, by path
     losses         powers that a load spectrum averages
@@ -90,7 +94,10 @@ class Words:
     beside         values of several methods that stand side by side
     """
 
+    verdict: Callable[[Any], Verdict] = lambda _: Verdict("plain", "")
     verdicts: Callable[[Any], dict[str, Verdict]] = lambda _: {}
+    tiles: tuple[str, ...] = ()
+    touches: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     conclusion: Callable[[Any], str] = lambda _: ""
     belongs: Callable[[Any], dict[str, str]] = lambda _: {}
     remarks: Callable[[Any], dict[str, str]] = lambda _: {}

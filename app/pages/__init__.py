@@ -7,8 +7,7 @@ query        the query string that holds a case
 form         the fields of a form with the typed text, the meaning and the fault of each field
 asked        the case that a query or a form asks for
 cases        a requested case, the addresses of its views, and its answer, which is kept for other views
-results      headline numbers with verdicts, and tables of results
-verdicts     verdicts that depend on several numbers, and the conclusion of a calculation in words
+results      the verdict, tiles, warnings, and tables of results
 csv          an answer as a table for spreadsheets
 carried      links that carry the gears or the coupling of a case to other calculations
 charts       figures as images with their own addresses, and the values of the figures

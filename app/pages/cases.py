@@ -161,13 +161,14 @@ class Asked:
         """Return the address of the page of a study of the case."""
         return self.view(name, theme=self.theme, title=self.title, **self.file)
 
-    def image(self, figure: str, image_format: str, theme: ThemeName | None = None) -> str:
-        """Return the address of a figure's file."""
+    def image(self, figure: str, image_format: str, theme: ThemeName | None = None, *, narrow: bool = False) -> str:
+        """Return the address of a figure's file; a narrow figure suits a phone."""
         name, theme = f"figures/{figure}.{image_format}", theme or self.theme
+        looks = {"theme": theme, "narrow": "on" if narrow else None}
         if self.too_long:
             case, ref_case = self.answered
-            return link(f"{self.path}/{name}", [], case=case, ref_case=ref_case, theme=theme)
-        return self.view(name, ref=self.ref, theme=theme)
+            return link(f"{self.path}/{name}", [], case=case, ref_case=ref_case, **looks)
+        return self.view(name, ref=self.ref, **looks)
 
 
 def opened(content: bytes, root: str) -> Asked:

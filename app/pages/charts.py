@@ -26,10 +26,11 @@ PIXELS = 100  # per inch
 class Chart:
     """A figure on a page.
 
-    `image` is the address of the image. `dark` is the address of a second image for dark pages, or an empty text. The
-    numbers of the figure are either loaded from the address `values`, or contained in `content` and `table`. `study`
-    holds the points of a sweep and the links to the cases at these points. `content` and `study` are JSON texts. `size`
-    is width and height in pixels, or None if the data of the figure are still to be computed.
+    `image` is the address of the image. `dark` is the address of a second image for dark pages, or an empty text;
+    `narrow` and `narrow_dark` are the addresses of the images for phones, or empty texts. The numbers of the figure are
+    either loaded from the address `values`, or contained in `content` and `table`. `study` holds the points of a sweep
+    and the links to the cases at these points. `content` and `study` are JSON texts. `size` is width and height in
+    pixels, or None if the data of the figure are still to be computed.
     """
 
     name: str
@@ -37,6 +38,8 @@ class Chart:
     subtitle: str
     image: str
     dark: str = ""
+    narrow: str = ""
+    narrow_dark: str = ""
     size: tuple[int, int] | None = None
     values: str = ""
     content: str = ""
@@ -83,23 +86,43 @@ def linked(declaration: Declaration, figure: Figure | None, asked: Asked) -> Cha
         subtitle=figure.subtitle if figure else declaration.source,
         image=asked.image(declaration.name, "svg"),
         dark="" if asked.theme else asked.image(declaration.name, "svg", theme="dark"),
+        narrow=asked.image(declaration.name, "svg", narrow=True),
+        narrow_dark="" if asked.theme else asked.image(declaration.name, "svg", theme="dark", narrow=True),
         size=_pixels(figure) if figure else None,
         values=asked.image(declaration.name, "json"),
     )
 
 
-def embedded(name: str, figure: Figure, theme: ThemeName | None) -> Chart:
-    """Return the chart of a figure whose image and values are part of the page."""
+def embedded(name: str, figure: Figure, theme: ThemeName | None, *, grows: bool) -> Chart:
+    """Return the chart of a figure whose image and values are part of the page; one that `grows` is not for phones."""
+    narrow = figure if grows else for_phones(figure)
+    wide = _images(figure, theme)
+    small = ("", "") if narrow is figure else _images(narrow, theme)
     return Chart(
         name=name,
         title=figure.title,
         subtitle=figure.subtitle,
-        image=_data_address(written(figure, "svg", theme or "light")),
-        dark="" if theme else _data_address(written(figure, "svg", "dark")),
+        image=wide[0],
+        dark=wide[1],
+        narrow=small[0],
+        narrow_dark=small[1],
         size=_pixels(figure),
-        content=json.dumps({"panels": _panels(figure)}),
+        content=json.dumps({"panels": _panels(figure), "narrow": _panels(narrow)}),
         table=_table(figure),
     )
+
+
+def _images(figure: Figure, theme: ThemeName | None) -> tuple[str, str]:
+    """Return the addresses of a figure's image, and of its image for dark pages if the page has no theme of its own."""
+    dark = "" if theme else _data_address(written(figure, "svg", "dark"))
+    return _data_address(written(figure, "svg", theme or "light")), dark
+
+
+def for_phones(figure: Figure) -> Figure:
+    """Return a figure that is as narrow as a phone, if its texts allow that."""
+    from app.figures.drawing.image import fitted  # noqa: PLC0415  only workers draw
+
+    return fitted(figure)
 
 
 def _pixels(figure: Figure) -> tuple[int, int]:
@@ -131,8 +154,11 @@ def in_columns(figures: Iterable[Figure]) -> list[tuple[Figure, str]]:
 
 
 def values_of(figure: Figure) -> bytes:
-    """Return the curves of a figure, the positions of its panels in the image, and its table of values, as JSON."""
-    return json.dumps({"panels": _panels(figure), **_table(figure)}).encode()
+    """Return the curves of a figure, the positions of its panels in the image, and its table of values, as JSON.
+
+    `narrow` has the positions in the image for phones.
+    """
+    return json.dumps({"panels": _panels(figure), "narrow": _panels(for_phones(figure)), **_table(figure)}).encode()
 
 
 def _table(figure: Figure) -> dict[str, Any]:

@@ -13,13 +13,14 @@ from app.manual.fields import address as row_address
 from app.pages.query import MATRIX, PICK, PRESENT, SIDE, excluded
 from app.pages.typed import text_of
 from app.pages.typesetting import cited, symbol, words
-from app.schema.fields import Branch, Leaf, branches, is_below, leaf_at, tree
+from app.schema.fields import Branch, Leaf, branches, is_below, leaf_at, pattern_of, tree
 from app.schema.model import Request
 from app.schema.model import Section as Fields
 from app.schema.quantities import split_unit
 
 REQUIRED, IF_USED = "required", "required if used"
 BESIDE = 10  # largest number of letters of an option that still fits beside the label of its field
+FITS = 16  # largest number of letters of a default in words that still fits into its field
 DETAIL = "detail"
 """Name of the request field that sets the level of detail of the answer.
 
@@ -73,6 +74,7 @@ class FieldView:
     excludes: tuple[str, ...] = ()
     empty: str = ""
     elements: tuple["FieldView", ...] = ()
+    source: str = ""
     reference: str = ""
     kind: str = "field"
 
@@ -154,6 +156,23 @@ def title_of(request: type[Request], path: str) -> str:
     return ", ".join(sections[outer].title for outer in around if outer in sections) or path
 
 
+def place_of_field(request: type[Request], path: str) -> str:
+    """Return the title of a field. For a field of a list's item, the item stands before it: pinion shaft, bearing 1."""
+    names, sections = path.split("."), branches(request)
+    last = max((place for place, name in enumerate(names) if name.isdecimal()), default=0)
+    if not last:
+        return title_of(request, path)
+    titles = list[str]()
+    for place, name in enumerate(names[: last + 1]):
+        around = pattern_of(".".join(names[: place + 1]))
+        if name.isdecimal():
+            titles[-1] = f"{titles[-1].removesuffix('s')} {int(name) + 1}"
+        elif around in sections:
+            titles.append(sections[around].title)
+    leaf = leaf_at(request, path)
+    return ", ".join([*titles, leaf.title] if leaf else titles)
+
+
 def form(request: type[Request], state: FormState) -> tuple[FormSection, ...]:
     """Return the sections of the form: sections with required fields first, advanced sections last."""
     root, loose = tree(request), list[Block]()
@@ -179,7 +198,10 @@ def _section(title: str, blocks: Iterable[Block], state: FormState, paths: list[
     given, faulty, assumed, deciding = (sum(_count(names, path) for path in paths) for names in groups)
     attributes: dict[str, Any] = {
         "path": paths[0],
-        "open": settled.get("needed", False) or given > 0 or faulty > 0 or deciding > 0,
+        "open": settled.get("needed", False)
+        or faulty > 0
+        or deciding > 0
+        or (given > 0 and not settled.get("advanced")),
         "deciding": deciding > 0,
         "given": given,
         "assumed": assumed,
@@ -208,6 +230,7 @@ def _branch(branch: Branch, path: str, state: FormState, item: int | None = None
             help=(branch.description,),
         )
     unused = (branch.optional or branch.repeated or state.required == IF_USED) and not given
+    is_solved_item = item is not None and state.resolved and not _count(state.faults, path)
     return _section(
         branch.title if item is None else f"{branch.title} {item + 1}",
         _with_folded(branch, path, replace(state, required=IF_USED if unused else REQUIRED)),
@@ -217,6 +240,7 @@ def _branch(branch: Branch, path: str, state: FormState, item: int | None = None
         switch=switch,
         needed=branch.required and not branch.optional and item is None,
         advanced=branch.advanced,
+        **({"open": False} if is_solved_item else {}),
     )
 
 
@@ -325,6 +349,8 @@ def field_view(leaf: Leaf, name: str, state: FormState) -> FieldView:
     options = _options(leaf, text, value)
     widget = "text" if leaf.kind in {"text", "other"} else "number"
     rule = "" if value not in (None, []) or leaf.options else leaf.declared.default_text or ""
+    rule = words(cited(rule).replace("`", ""))
+    fits = widget == "number" and not leaf.dimensions and len(rule) <= FITS
     return FieldView(
         name=name,
         label=leaf.declared.title,
@@ -332,15 +358,16 @@ def field_view(leaf: Leaf, name: str, state: FormState) -> FieldView:
         unit=leaf.unit or "",
         widget="list" if leaf.dimensions else "select" if options else widget,
         text=text,
-        placeholder=_placeholder(leaf, value),
+        placeholder=_placeholder(leaf, value) or (rule if fits else ""),
         options=options,
         required=state.required if leaf.required else "",
         assumed=name in state.assumed,
         help=_help(leaf, assumed=name in state.assumed),
         fault=state.faults.get(name),
         excludes=excluded(name, leaf),
+        source=cited(leaf.declared.source or ""),
         reference=row_address(state.endpoint, leaf.path),
-        empty=words(cited(rule).replace("`", "")),
+        empty="" if fits else rule,
     )
 
 
@@ -376,7 +403,7 @@ def _options(leaf: Leaf, text: str, used: Any) -> tuple[tuple[str, str], ...]:
 
 
 def _help(leaf: Leaf, *, assumed: bool) -> tuple[str, ...]:
-    """Return the lines of help: meaning, permissible range, assumed default, alternatives and source."""
+    """Return the lines of help: meaning, permissible range, assumed default and alternatives."""
     ends = {"ge": "from", "gt": "above", "le": "to", "lt": "below"}
     bounds = [f"{ends[key]} {text_of(float(bound))}" for key, bound in leaf.declared.bounds.items()]
     fellows = (words(split_unit(fellow.rpartition(".")[2])[0]) for fellow in leaf.exclusive)
@@ -386,7 +413,6 @@ def _help(leaf: Leaf, *, assumed: bool) -> tuple[str, ...]:
         " ".join(["Permissible:", *bounds, leaf.unit or ""]).rstrip() + "." if bounds else "",
         f"{'Assumed' if assumed else 'Our default'}: {leaf.declared.assumed}." if leaf.declared.assumed else "",
         f"Instead of: {', '.join(fellows)}." if leaf.exclusive else "",
-        f"Source: {leaf.declared.source}." if leaf.declared.source else "",
     ]
     return tuple(cited(line) for line in lines if line)
 

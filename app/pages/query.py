@@ -40,7 +40,7 @@ REPORT_NAMES = {
 }
 """The fields that identify a report, with the largest permissible number of characters of each field."""
 VIEW_NAMES = REPORT_NAMES.keys() | {
-    *("paper", "ref", "also", "pair", "theme", "sources", "curve", "unlinked", "extent", "rexs_stage")
+    *("paper", "ref", "also", "pair", "theme", "sources", "curve", "unlinked", "extent", "rexs_stage", "narrow")
 }
 """Names of query fields that affect only how a case is shown.
 

@@ -11,6 +11,7 @@ from pprint import pformat
 from textwrap import indent
 from typing import Any, NamedTuple
 from unicodedata import category
+from urllib.parse import urlsplit
 
 from app.errors import Unprocessable
 from app.manual import Chapter, chapters
@@ -30,7 +31,8 @@ LABELS = {name: name for name in REPORT_NAMES} | {
 }
 """Labels of the fields in the form of the report."""
 MOST_SHORT = 4  # largest number of figures in a short report, where two figures stand side by side
-LONGEST_LINK = 160  # characters of the printed text of a link; the address behind the text is complete
+THIS_COMPUTER = frozenset({"localhost", "127.0.0.1", "::1"})
+"""Hosts that mean another computer to the reader of a printed report."""
 _element = re.compile(r"(\.\d+){1,2}$")  # indices of an element of a list or a matrix of numbers
 
 
@@ -74,6 +76,7 @@ def context(asked: Asked, case: SolvedCase, host: str) -> dict[str, Any]:
     """
     inputs = _inputs(case, asked.pairs)
     views, link = asked.views, "" if asked.too_long else host + asked.root + asked.page
+    is_local = not host or urlsplit(host).hostname in THIS_COMPUTER
     return {
         "host": host,
         "longest": REPORT_NAMES,
@@ -87,9 +90,9 @@ def context(asked: Asked, case: SolvedCase, host: str) -> dict[str, Any]:
         "most": MOST_SHORT,
         "stage": views.get("rexs_stage", ""),
         "symbols": [symbol for chapter in _chapters_behind(case) for symbol in symbols_of(chapter)],
-        "command": for_shell((host or LOCAL) + asked.root, case),
+        "command": for_shell((LOCAL if is_local else host) + asked.root, case),
         "link": link,
-        "link_text": link if len(link) <= LONGEST_LINK else f"{link[:LONGEST_LINK]}…",
+        "is_local": is_local,
         "methods": [method_of(chapter) for chapter in _chapters_behind(case)],
     }
 

@@ -9,11 +9,19 @@ from typing import Any, NamedTuple
 from app.calculations import CALCULATIONS
 from app.figures.wording import DIFFERENCES, signed
 from app.models.card import NEAR_LIMIT, Verdict, Words
+from app.pages.form import link_to, place_of_field
 from app.pages.typesetting import shown, words
 from app.schema.answers import GROUNDS, Response
-from app.schema.fields import ITEM, Branch, Leaf, headlines, leaf_at, tree
-from app.schema.model import Documented
+from app.schema.fields import ITEM, Branch, Leaf, headlines, leaf_at, tree, value_at
+from app.schema.model import Documented, Request
 
+NUMERICS = frozenset(
+    {
+        *("balance", "balance_error", "convergence", "iterations", "mesh_error", "resolution"),
+        *("change_um", "displacement_uncertainty_um", "harmonics_uncertainty_n", "sweeps", "unsolved_points"),
+    }
+)
+"""Sections and fields that say how well a case was solved."""
 NOT_RESULTS = GROUNDS | {"status", "warnings", "residuals"}
 DIGITS = 3  # significant digits of a headline number
 ITEMS = {"shafts": ("pinion shaft", "wheel shaft"), "helices": ("helix 1", "helix 2")}
@@ -118,6 +126,40 @@ def groups(response: Documented, before: Documented | None = None) -> dict[str, 
     return tables
 
 
+class Part(NamedTuple):
+    """A part of all results: its title, its tables by the titles of their groups, and whether it is open at first."""
+
+    title: str
+    groups: dict[str, list[ResultRow]]
+    is_open: bool = False
+
+
+def parts(response: Documented, tables: dict[str, list[ResultRow]]) -> list[Part]:
+    """Divide the tables of `groups` into the main results, all others, and those about the numerical solution.
+
+    Main are the tiles, whatever has a limit, the losses, and what goes back into a file.
+    """
+    said = words_of(response)
+    main = {*said.tiles, *said.losses, *(each.path for each in said.to_file)}
+
+    def part_of(row: ResultRow) -> int:
+        if not NUMERICS.isdisjoint(row.path.split(".")):
+            return 2
+        view = row.leaf.view
+        return 0 if view.headline or view.limit is not None or row.leaf.path in main else 1
+
+    divided = tuple(
+        {title: [row for row in rows if part_of(row) == number] for title, rows in tables.items()}
+        for number in range(3)
+    )
+    titles = ("Main results", "All other results", "Numerics: how well this case is solved")
+    return [
+        Part(title, filled, is_open=number == 0)
+        for number, (title, own) in enumerate(zip(titles, divided, strict=True))
+        if (filled := {name: rows for name, rows in own.items() if rows})
+    ]
+
+
 def _side_by_side(first: ResultRow, second: ResultRow) -> ResultRow:
     """Return one row with the values of two helices."""
     change = first.change if first.change == second.change else f"{first.change}, {second.change}"
@@ -215,27 +257,63 @@ def resolved(response: Response) -> dict[str, Any]:
 
 
 def cards(response: Documented, inputs: dict[str, Any], before: Documented | None = None) -> list[ResultRow]:
-    """Return one headline number for each rank, sorted by rank.
+    """Return the tiles: one headline number for each rank, sorted by rank, and the further tiles of the model.
 
     If several numbers have the same rank, only the number with the worst verdict from `verdicts` is returned. If this
-    verdict occurs several times, or if `verdicts` judges none of these numbers, the largest number is returned. If a
-    warning makes the answer doubtful, the level `good` is lowered to `near`.
+    verdict occurs several times, or if `verdicts` judges none of these numbers, the largest number is returned. A tile
+    that a warning touches says so, and is not good.
     """
-    values, old = values_by_path(response), values_by_path(before)
-    judged, belongs = verdicts(response), words_of(response).belongs(response)
-    doubtful = any(warning.rank != "note" for warning in response.warnings)
+    said = words_of(response)
+    values, old = ({**values_by_path(each), **_of(each, said.tiles)} for each in (response, before))
+    judged, belongs, remarks = verdicts(response), said.belongs(response), said.remarks(response)
+    chosen = [
+        max(alike, key=lambda leaf: (_badness(judged.get(leaf.path)), _size(values.get(leaf.path))))
+        for _, alike in groupby(headlines(type(response)), key=lambda leaf: leaf.view.headline)
+    ]
+    chosen += [leaf for path in said.tiles if (leaf := leaf_at(type(response), path)) and path in values]
     rows = []
-    for _, alike in groupby(headlines(type(response)), key=lambda leaf: leaf.view.headline):
-        leaf = max(alike, key=lambda leaf: (_badness(judged.get(leaf.path)), _size(values.get(leaf.path))))
+    for leaf in chosen:
         level, verdict = judged.get(leaf.path) or _verdict(response, leaf, inputs | values)
-        if level == "good" and doubtful:
-            level, verdict = "near", f"{verdict}; see the warnings"
         value = values.get(leaf.path)
         row = row_of(leaf, leaf.path, value, old.get(leaf.path), digits=DIGITS)
-        row = replace(row, items=_with_band(row.items, leaf, values), before=_with_band(row.before, leaf, old))
         remark = ": ".join(part for part in (belongs.get(leaf.path, ""), verdict) if part)
+        see = "see the warnings" if value is not None and _is_touched(response, leaf.path) else ""
+        remark = "; ".join(part for part in (remark, remarks.get(leaf.path, ""), see) if part)
+        level = "near" if see and level == "good" else level
         rows.append(replace(row, unit="" if value is None else row.unit, level=level, remark=remark))
     return rows
+
+
+def _of(response: Documented | None, paths: Iterable[str]) -> dict[str, Any]:
+    """Return the values at these paths of an answer, without the paths in sections that the answer does not have."""
+    sections = ((path, path.rpartition(".")[0]) for path in paths)
+    return {path: value_at(response, path) for path, section in sections if value_at(response, section) is not None}
+
+
+def _is_touched(response: Documented, path: str) -> bool:
+    """Return whether a warning that is more than a note concerns the number at `path`."""
+    touches = words_of(response).touches
+    codes = (warning.code for warning in response.warnings if warning.rank != "note")
+    return any(path in touches.get(code, (path,)) for code in codes)
+
+
+class Warned(NamedTuple):
+    """Warnings of one rank and code: what they say, each with the inputs that they are about (link and place)."""
+
+    rank: str
+    code: str
+    said: dict[str, list[tuple[str, str]]]
+
+
+def warned(request: type[Request], response: Response) -> list[Warned]:
+    """Return the warnings, equal ones once. An item of a list has its number, so that a bearing can be told."""
+    found: dict[tuple[str, str], Warned] = {}
+    for each in response.warnings:
+        same = found.setdefault((each.rank, each.code), Warned(each.rank, each.code, {}))
+        places = same.said.setdefault(each.message, [])
+        if each.field:
+            places.append((link_to(request, each.field), place_of_field(request, each.field)))
+    return [*found.values()]
 
 
 def verdicts(response: Documented) -> dict[str, Verdict]:
@@ -243,8 +321,27 @@ def verdicts(response: Documented) -> dict[str, Verdict]:
     return {} if response.status == "no_solution" else words_of(response).verdicts(response)
 
 
+def verdict(response: Response) -> Verdict:
+    """Return the first sentence about an answer, with its level.
+
+    A warning that makes the answer invalid stands first, unless the model's verdict is bad and has said so. The names
+    of warnings that make it doubtful stand last.
+    """
+    if response.status == "no_solution":
+        return Verdict("bad", "")
+    level, text = words_of(response).verdict(response)
+    invalid = [warning for warning in response.warnings if warning.rank == "invalid"]
+    if invalid and level != "bad":
+        first = invalid[0].message.partition(". ")[0].removesuffix(".")
+        level, text = "bad", f"Not valid: {first}. {text}"
+    doubtful = [*dict.fromkeys(words(each.code) for each in response.warnings if each.rank == "doubtful")]
+    if doubtful and level != "bad":
+        level, text = "near", f"{text} Doubtful: {', '.join(doubtful)}."
+    return Verdict(level, text.strip())
+
+
 def conclusion(response: Documented) -> str:
-    """Return the conclusion of an answer in words, one statement a line; empty if there is none."""
+    """Return what an answer says besides its verdict, one statement a line; empty if it says nothing else."""
     return "" if response.status == "no_solution" else words_of(response).conclusion(response)
 
 
@@ -280,15 +377,6 @@ def words_of(response: Documented) -> Words:
     return next((each.words for each in CALCULATIONS if each.response is type(response)), Words())
 
 
-def _with_band(items: tuple[str, ...], leaf: Leaf, values: dict[str, Any]) -> tuple[str, ...]:
-    """Add the ends of the band to the text of a headline number that has a band, for example 2.28 (1.95 to 2.58)."""
-    ends = values.get(leaf.view.band) if leaf.view.band else None
-    if not ends:
-        return items
-    low, high = (shown(end, DIGITS) for end in ends)
-    return (f"{', '.join(items)} ({low} to {high})",)
-
-
 def _badness(verdict: Verdict | None) -> int:
     """Return a number that is larger the worse the verdict is. Return 0 if there is no verdict."""
     return LEVELS.index(verdict.level) if verdict else 0
@@ -319,7 +407,7 @@ def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[
     name = f"{shown(limit, 4)} {leaf.unit or ''}".strip()
     verdict = words(said) if judge and said is not None else standing.format(name)
     if len(ends) > 1:
-        return level, f"{shown(value, DIGITS)}, at worst {shown(worse, DIGITS)}: {verdict}"
+        return level, f"at worst {shown(worse, DIGITS)}: {verdict}"
     return level, f"{judge.title}: {verdict}" if judge and said is not None else verdict
 
 

@@ -1,9 +1,9 @@
 """Numbers as people type them into a form, and the texts that stand for these numbers in links.
 
 A typed number may have digits in groups of three, a decimal point or comma, a power of ten, the minus sign that pages
-print, and the unit of its field with any prefix. A text that can be read in two ways is not read as a number. In a
-link, a question mark is added to the end of such a text, so that the text is not a number. `question` returns the
-question that asks the user which reading is meant.
+print, and the unit of its field with any prefix, or a unit of another system such as °F, hp or lbf in. A text that can
+be read in two ways is not read as a number. In a link, a question mark is added to the end of such a text, so that the
+text is not a number. `question` returns the question that asks the user which reading is meant.
 """
 
 import re
@@ -30,10 +30,29 @@ _TYPED = re.compile(r"([+-]?[\d.,][\d.,' ]*?)(?:[eE]([+-]?\d{1,4}))?\s*((?:\s1/|
 
 _PREFIXES = dict(zip(("", *"pnµumcdhkMGT"), (0, -12, -9, -6, -6, -3, -2, -1, 2, 3, 6, 9, 12), strict=True))
 _BASES = ("m", "g", "s", "rad", "mol", "N", "Pa", "W", "J", "K", "Hz")
-_SYMBOLS = {f"{prefix}{base}": (base, power) for base in _BASES for prefix, power in _PREFIXES.items()}
-_SYMBOLS |= {base: (base, 0) for base in ("°C", "°", "min")}
-_FACTOR = re.compile(rf"[\s·*]*({'|'.join(sorted(_SYMBOLS, key=len, reverse=True))})(?:\^?(-?\d))?")
+_SYMBOLS = {
+    f"{prefix}{base}": (base, 1, Decimal(1).scaleb(power)) for base in _BASES for prefix, power in _PREFIXES.items()
+}
+_SYMBOLS |= {base: (base, 1, Decimal(1)) for base in ("°C", "°", "min")}
+_SYMBOLS |= {  # of other systems: base unit, its exponent, and the size in base units
+    "bar": ("Pa", 1, Decimal(100000)),
+    "mbar": ("Pa", 1, Decimal(100)),
+    "l": ("m", 3, Decimal("0.001")),
+    "in": ("m", 1, Decimal("0.0254")),
+    "ft": ("m", 1, Decimal("0.3048")),
+    "mil": ("m", 1, Decimal("0.0000254")),
+    "gal": ("m", 3, Decimal("0.003785411784")),
+    "lb": ("g", 1, Decimal("453.59237")),
+    "lbf": ("N", 1, Decimal("4.4482216152605")),
+    "psi": ("Pa", 1, Decimal("6894.757293168361")),
+    "ksi": ("Pa", 1, Decimal("6894757.293168361")),
+    "hp": ("W", 1, Decimal("745.6998715822702")),
+}
+_FACTOR = re.compile(rf"[\s·*-]*({'|'.join(sorted(_SYMBOLS, key=len, reverse=True))})(?:\^?(-?\d))?")
 _ALIASES = {"rpm": "1/min", "RPM": "1/min", "U/min": "1/min", "deg": "°", "C": "°C", "cSt": "mm²/s"}
+_ALIASES |= {"gpm": "gal/min", "lb in": "lbf in", "in lb": "lbf in", "lb ft": "lbf ft", "ft lb": "lbf ft"}
+_FAHRENHEIT = {"°F", "F", "degF"}
+DIGITS = 12  # significant digits of a number that was converted from a unit of another system
 
 
 def text_of(value: Any) -> str:
@@ -74,16 +93,18 @@ def in_link(text: str, unit: str | None = None) -> str:
     if _PLAIN.fullmatch(text) and not _DOUBTFUL.fullmatch(text):
         return text
     parts = _parts(text)
-    power = power_between(parts[3], unit) if parts else None
-    if parts is None or power is None:
+    factor, offset = (_conversion(parts[3], unit) if parts else None) or (None, None)
+    if parts is None or factor is None or offset is None:
         return text
     if (_DOUBTFUL.fullmatch(parts[1]) and not parts[2]) or _unit_in_doubt(parts):
         return text + DOUBT
     plain = _ungrouped(parts[1]).replace(",", ".", 1)
     if not _NUMBER.fullmatch(plain):
         return text
-    power += int(parts[2] or 0)
-    return text_of(float(f"{plain}e{power}")) if power else plain
+    if not parts[2] and (factor, offset) == (Decimal(1), Decimal(0)):
+        return plain
+    value = (Decimal(f"{plain}e{parts[2] or 0}") - offset) * factor
+    return text_of(float(value if _power(factor) is not None else f"{value:.{DIGITS}g}"))
 
 
 def list_in_link(text: str, unit: str | None = None) -> str:
@@ -147,12 +168,28 @@ def as_typed(text: str) -> str:
 def power_between(typed: str | None, own: str | None) -> int | None:
     """Return the power of ten that converts a typed unit to the unit of the field.
 
+    Return None if the two units belong to different quantities, or if their ratio is not a power of ten.
+    """
+    factor, offset = _conversion(typed, own) or (None, None)
+    return _power(factor) if factor is not None and not offset else None
+
+
+def _conversion(typed: str | None, own: str | None) -> tuple[Decimal, Decimal] | None:
+    """Return factor and offset that convert a typed number to the unit of the field: (number - offset) factor.
+
     Return None if the two units belong to different quantities.
     """
     if not typed or _packed(typed) == _packed(own or ""):
-        return 0
+        return Decimal(1), Decimal(0)
+    if _packed(typed) in _FAHRENHEIT and own in {"°C", "K"}:
+        return Decimal(5) / 9, Decimal(32 if own == "°C" else 0)
     here, there = _factors(typed), _factors(own or "")
-    return here[1] - there[1] if here and there and here[0] == there[0] else None
+    return (here[1] / there[1], Decimal(0)) if here and there and here[0] == there[0] else None
+
+
+def _power(factor: Decimal) -> int | None:
+    """Return the power of ten that a factor is; None if it is none."""
+    return factor.adjusted() if factor == Decimal(1).scaleb(factor.adjusted()) else None
 
 
 def question(text: str) -> str:
@@ -250,21 +287,21 @@ def _packed(unit: str) -> str:
     return re.sub(r"[\s()·*]", "", unit).replace("μ", "µ")
 
 
-def _factors(unit: str) -> tuple[frozenset[tuple[str, int]], int] | None:
-    """Return the base units and the power of ten of a unit; None if the text is not a unit.
+def _factors(unit: str) -> tuple[frozenset[tuple[str, int]], Decimal] | None:
+    """Return the base units of a unit and its size in them; None if the text is not a unit.
 
     Every base unit comes with its exponent.
     """
-    text = _ALIASES.get(unit.strip(), unit).translate(_SUPERSCRIPTS).replace("μ", "µ")
+    text = _ALIASES.get(re.sub(r"[\s·*-]+", " ", unit.strip()), unit).translate(_SUPERSCRIPTS).replace("μ", "µ")
     exponents: dict[str, int] = {}
-    power = 0
+    size = Decimal(1)
     for place, part in enumerate(re.sub(r"°\s*C", "°C", text).replace("1/", "/").split("/")):
         rest = part.strip("() ")
         while factor := _FACTOR.match(rest):
-            (base, prefix), exponent = _SYMBOLS[factor[1]], int(factor[2] or 1) * (-1 if place else 1)
-            exponents[base] = exponents.get(base, 0) + exponent
-            power += prefix * exponent
+            (base, own, of_base), exponent = _SYMBOLS[factor[1]], int(factor[2] or 1) * (-1 if place else 1)
+            exponents[base] = exponents.get(base, 0) + own * exponent
+            size *= of_base**exponent
             rest = rest[factor.end() :]
         if rest.strip():
             return None
-    return (frozenset(exponents.items()), power) if exponents else None
+    return (frozenset(exponents.items()), size) if exponents else None

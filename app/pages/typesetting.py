@@ -4,11 +4,16 @@ import re
 
 from markupsafe import Markup, escape
 
-from app.figures.wording import number, subscripts
+from app.figures.wording import NO_BREAK, number, subscripts
+from solvers.quantity import UNITS
 
 _LETTER = re.compile(r"[^\W\d_]{1,2}\*?")
 _SECOND_HAND = "as read in a public implementation"
 NO_VALUE = "–"
+_UNITS = sorted({unit.symbol for unit in UNITS.values()} - {"°"}, key=len, reverse=True)
+_WITH_UNIT = re.compile(rf"(?<=\d) ({'|'.join(map(re.escape, _UNITS))}|%)(?![^\W\d_])")
+_MINUS = re.compile(r"(?<![\w)-])-(?=\d)")
+_GROUPED = re.compile(r"(?<=\d) (?=\d{3}(?!\d))")
 _WORDS = {
     "allowable_misalignment": "permissible misalignment",
     "angular": "angular misalignment",
@@ -18,6 +23,7 @@ _WORDS = {
     "hertzian": "Hertzian",
     "ishikawa": "Ishikawa",
     "iso_tr_13989": "ISO/TS 6336-20:2017",
+    "low_peclet": "low Péclet number",
     "newtonian": "Newtonian",
     "pao": "polyalphaolefin (PAO)",
     "pocket_chain": "chain of pockets",
@@ -28,9 +34,15 @@ _WORDS = {
 }
 
 
+def together(text: str) -> str:
+    """Return a text with true minus signs, whose lines do not break in a number nor between it and its unit."""
+    grouped = _GROUPED.sub(NO_BREAK, _MINUS.sub("−", text))
+    return _WITH_UNIT.sub(lambda found: NO_BREAK + found[1].replace(" ", NO_BREAK), grouped)
+
+
 def typeset(text: str) -> Markup:
-    """Return a text in which names such as `h_a` are letters with subscripts."""
-    return Markup(subscripts(str(escape(text)), "<i>{}</i><sub>{}</sub>".format))  # noqa: S704  escaped before
+    """Return a text in which names such as `h_a` are letters with subscripts, and numbers stay with their units."""
+    return Markup(subscripts(together(str(escape(text))), "<i>{}</i><sub>{}</sub>".format))  # noqa: S704  escaped before
 
 
 def symbol(text: str | None) -> Markup:

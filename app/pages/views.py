@@ -11,17 +11,30 @@ from app.pages import csv
 from app.pages import report as reports
 from app.pages.carried import uses
 from app.pages.cases import REFUSED, Asked, FormFault, SolvedCase, faults_of, key_of, solved
-from app.pages.charts import figure_of, figures_of, linked, values_of
+from app.pages.charts import figure_of, figures_of, for_phones, linked, values_of
 from app.pages.form import FormState, form
 from app.pages.manual import chapter_of
 from app.pages.query import Pairs, excluded, link
-from app.pages.results import assumptions, beside, cards, conclusion, differences, groups, resolved
+from app.pages.results import (
+    assumptions,
+    beside,
+    cards,
+    conclusion,
+    differences,
+    groups,
+    parts,
+    resolved,
+    verdict,
+    warned,
+)
 from app.pages.study_links import studies_of_case, study_links
 from app.pages.templating import example_link, examples_of, page_path, rendered
 from app.pages.typed import as_typed, question
 from app.pages.typesetting import NO_VALUE
 from app.pages.variants import variants_of, with_this
 from app.schema.fields import headlines, is_below, leaf_at
+
+FIRST_FIGURES = 4  # figures that a page shows; the others are folded
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,7 +104,10 @@ def figure(asked: Asked, name: str, image_format: Format | Literal["json"]) -> S
     case, variant, _ = _both(asked)
     declaration = next(declaration for declaration in asked.calculation.figures if declaration.name == name)
     data = figure_of(declaration, case, variant)
-    content = values_of(data) if image_format == "json" else written(data, image_format, asked.theme or "light")
+    if image_format == "json":
+        return Shown(values_of(data), keep=_keep(asked, case, variant))
+    placed = for_phones(data) if asked.views.get("narrow") else data
+    content = written(placed, image_format, asked.theme or "light")
     return Shown(content, keep=_keep(asked, case, variant))
 
 
@@ -148,6 +164,7 @@ def _page(
         studies=study_links(calculation),
         subject=card_of(calculation).subject,
         uses=[] if asked.too_long else uses(asked),
+        first_figures=FIRST_FIGURES,
         headlines=headlines(calculation.response),
         **context,
     )
@@ -160,15 +177,18 @@ def _answered(
     """Return the template's variables for the answer of a case and for the comparison of the case with the variant."""
     figures, missing = figures_of(case, variant, compute=compute)
     request, response, before = type(case.request), case.response, variant.response if variant else None
-    derived = groups(response.derived) if response.derived else {}
+    derived, tables = groups(response.derived) if response.derived else {}, groups(response, before)
     return {
         "response": response,
         "cards": cards(response, resolved(response), before),
+        "verdict": verdict(response),
         "conclusion": conclusion(response),
+        "warned": warned(request, response),
         "variants": variants_of(asked, case, variant),
         "another": link(asked.path, asked.pairs, ref=asked.ref, also=with_this(asked), theme=asked.theme),
         "assumed": assumptions(request, response),
-        "groups": groups(response, before),
+        "groups": tables,
+        "parts": parts(response, tables),
         "beside": beside(response) if response.status != "no_solution" else [],
         "derived": [row for rows in derived.values() for row in rows if row.value != NO_VALUE],
         "elsewhere": _elsewhere(asked),

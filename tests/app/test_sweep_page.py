@@ -276,7 +276,8 @@ def test_a_fault_of_the_case_is_named_by_the_title_of_its_field() -> None:
     for html in (study, html_of(wrong, 422)):
         problem = re.search(r'<div class="problem".*?</div>', html, re.DOTALL)
         assert problem
-        assert "transmitted torque is -5; permissible: 0 to 100000000 N m" in problem[0]
+        said = problem[0].replace("\u00a0", " ").replace("−", "-")
+        assert "transmitted torque is -5; permissible: 0 to 100000000 N m" in said
     assert "torque_n_m" not in re.sub(r"<[^>]*>", "", study[study.index('class="problem"') :])
 
 

@@ -26,12 +26,13 @@ MOST_PAGES = 10
 
 If a page were wider than the paper, the browser would shrink the page and its text.
 """
+MOST_HEIGHT = 4000  # pixels of the page of a scuffing case
 SUBSCRIPT = 8
 """Subscripts are in smaller type: a text with at most this number of characters may be lower than 7 points."""
 
 
 def value_of(page: Page, path: str) -> str:
-    return page.locator(f'[data-path="{path}"]').inner_text()
+    return page.locator(f'[data-path="{path}"]').text_content() or ""
 
 
 def test_fill_and_read_a_result(visit: Callable[..., Page]) -> None:
@@ -203,7 +204,7 @@ def test_values_of_a_list_are_counted_as_they_are_read(visit: Callable[..., Page
 
 def test_cards_stay_in_sight(visit: Callable[..., Page]) -> None:
     page = visit(address_of(COUPLING), viewport=DESK)
-    page.locator(".results tr").nth(5).scroll_into_view_if_needed()
+    page.locator(".chart").nth(2).scroll_into_view_if_needed()
     page.mouse.wheel(0, 600)
     expect(page.locator(".card").first).to_be_in_viewport()
     phone = visit(address_of(COUPLING), viewport=PHONE)
@@ -262,12 +263,12 @@ def test_compare(visit: Callable[..., Page]) -> None:
     name, _, *values = differing.inner_text().split("\t")
     assert (name, values) == ("profile crowning", ["0", "10", "µm", "from zero"])
     expect(page.locator(".card .was").first).to_be_visible()
-    parts = page.locator(".differences, .cards, .charts, [aria-label='All results']")
-    order = ["panel differences", "cards", "charts", "scroll"]
+    parts = page.locator(".finding, .differences, .cards, #figures, #all")
+    order = ["finding near", "cards", "panel differences", "charts", "panel"]
     assert parts.evaluate_all("parts => parts.map(part => part.className)") == order
     page.get_by_role("link", name="Report").click()
     expect(page.locator("body")).to_contain_text("Compared with variant A")
-    assert page.get_by_text("variant A → this case").count() == 3
+    assert page.get_by_text("variant A → this case").count() == 5
     assert page.locator('figure img[alt*="variant A"]').count() > 3
     page.go_back()
     page.get_by_role("link", name="End comparison").click()
@@ -280,7 +281,8 @@ def test_the_change_is_on_the_screen(visit: Callable[..., Page], name: str) -> N
     example = examples()[name]
     path, pairs = example.endpoint.removeprefix("/v1"), pairs_of(example.request)
     page = visit(link(path, pairs, ref=link("", pairs)[1:]), viewport=DESK)
-    table = page.get_by_role("region", name="All results")
+    page.locator("#all > summary").click()
+    table = page.get_by_role("region", name="Main results")
     assert table.evaluate("part => part.scrollWidth - part.clientWidth") == 0
     assert all(page.locator(".list").evaluate_all("lists => lists.map(each => !each.open)"))
     assert page.locator(".differences").inner_text().endswith("None yet: change the form.")
@@ -341,6 +343,7 @@ def test_an_example_is_loaded_from_the_menu(visit: Callable[..., Page]) -> None:
     page.locator("#example").select_option("milian-table-1")
     page.wait_for_url(re.compile(r"gears\.pinion\.teeth"))
     expect(page.locator(".card").first).to_be_visible()
+    expect(page.get_by_role("button", name="Load")).to_have_count(0)  # the menu loads by itself
     page.go_back()
     expect(page.locator(".empty")).to_be_visible()
 
@@ -352,8 +355,39 @@ def test_without_script(visit: Callable[..., Page]) -> None:
     assert "load.power_kw=60" in page.url
     assert "pick" not in page.url
     assert "=&" not in page.url
-    assert page.locator(".card").count() == 3
+    assert page.locator(".card").count() == 5
     assert page.locator(".chart img").count() >= 5
+
+
+PARTED = """all => all.filter(each => {
+  const rows = [...each.children].map(unit => unit.getBoundingClientRect().top - each.getBoundingClientRect().top);
+  return rows.some(below => below > 25) || each.scrollWidth > each.clientWidth;
+}).map(each => each.innerText)"""
+
+
+@pytest.mark.parametrize("name", [name for name in STARTERS if examples()[name].endpoint == "/v1/scuffing"])
+def test_a_page_is_short_and_no_number_is_parted_from_its_unit(visit: Callable[..., Page], name: str) -> None:
+    page = visit(address_of(name), viewport=DESK)
+    page.locator("#figures img").evaluate_all(LOADED)
+    assert page.evaluate("document.scrollingElement.scrollHeight") <= MOST_HEIGHT
+    for window in (DESK, PHONE):
+        page.set_viewport_size(window)
+        assert page.locator(".card .value").evaluate_all(PARTED) == []
+        assert overflow(page) == 0
+
+
+def test_a_section_that_is_filled_in_says_yes_and_no_empties_it(visit: Callable[..., Page]) -> None:
+    page = visit(address_of(SCUFFING))
+    section, stage = page.locator('[data-section="micropitting"]'), '[name="micropitting.failure_load_stage"]'
+    switch = section.locator('select[name="micropitting"]')
+    section.locator("summary").first.click()
+    assert switch.input_value() == ""
+    section.locator(stage).fill("8")
+    expect(page.locator(".card", has_text="micropitting")).to_be_visible()
+    expect(switch).to_have_value("on")
+    switch.select_option("")
+    expect(page.locator(".card", has_text="micropitting")).to_have_count(0)
+    expect(section.locator(stage)).to_have_value("")
 
 
 def test_a_long_case_is_posted(visit: Callable[..., Page]) -> None:
@@ -568,8 +602,7 @@ def test_back_from_a_calculation_returns_to_the_gear_unit(visit: Callable[..., P
 def test_a_result_leads_to_the_place_that_names_it(visit: Callable[..., Page], size: dict[str, int]) -> None:
     page = visit(address_of("pahl-axial-displacement"), viewport=size)
     everything = page.locator("#all")
-    if everything.get_attribute("open") is None:
-        everything.locator("summary").click()
+    everything.evaluate("all => [all, ...all.querySelectorAll('details')].forEach(each => { each.open = true; })")
     row = everything.locator("tr", has_text="contact shift moment")
     expect(row).to_be_visible()
     row.locator(".place a").click()

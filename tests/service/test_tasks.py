@@ -33,7 +33,7 @@ def test_a_scuffing_report_with_project_and_author(visit: Callable[..., Page]) -
     own_pair(user)
     user.open("oil")
     user.choose("ISO viscosity grade", "220")
-    expect(page.locator(".card")).to_have_count(3)
+    expect(page.locator(".card")).to_have_count(5)
     expect(page.locator("#copy")).to_have_attribute("href", re.compile("lubricant.iso_vg=220"))
     user.click(page.get_by_role("link", name="Report"))
     for label, text in (("project", "Mill 7"), ("author", "J. Doe")):

@@ -42,7 +42,7 @@ def test_from_a_case_to_a_curve_and_back_to_the_case_of_a_point(visit: Callable[
     expect(page.locator(".card").first).to_be_visible()
     chosen = page.locator('[name="operation.misalignment_deg"]').input_value()
     assert float(chosen) == pytest.approx(float(re.findall(r"misalignment ([\d.]+)", said)[0]), rel=1e-4)
-    thrust = "".join(page.locator('[data-path="axial_thrust.design_force_n"]').inner_text().split())
+    thrust = "".join(page.locator('[data-path="axial_thrust.design_force_n"]').all_text_contents()[0].split())
     assert float(thrust) == pytest.approx(float(re.findall(r"thrust to be held ([\d.]+)", said)[0]), rel=1e-3)
 
 

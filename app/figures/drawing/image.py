@@ -50,17 +50,21 @@ def draw(figure: Figure, image_format: str, theme: ThemeName = "light") -> bytes
 def draw_for_report(figure: Figure) -> tuple[Figure, bytes]:
     """Draw a figure as svg, if possible in the width of a report's column. Return the figure and the svg.
 
-    If the svg has the width of the column, the returned figure is the copy with `narrow` set to True.
-    The figure keeps its usual width if its panels stand side by side, or if its texts would be cut off or overlap in
-    the width of the column.
+    If the svg has the width of the column, the returned figure is the copy with `narrow` set to True. Panels that
+    stand side by side keep the usual width.
     """
+    placed = figure if figure.beside else fitted(figure)
+    return placed, draw(placed, "svg")
+
+
+def fitted(figure: Figure) -> Figure:
+    """Return the figure in the width of a phone or of a report's column, its panels one above the other.
+
+    The figure is unchanged if its texts would be cut off or overlap in this width.
+    """
+    narrow = replace(figure, narrow=True, beside=False)
     with themed("light"):
-        if not figure.beside:
-            narrow = replace(figure, narrow=True)
-            sheet, axes = laid_out(narrow)
-            if not _collides(sheet, axes):
-                return narrow, _written(sheet, figure.title, "svg")
-        return figure, draw(figure, "svg")
+        return figure if _collides(*laid_out(narrow)) else narrow
 
 
 def _written(sheet: Sheet, title: str, image_format: str) -> bytes:

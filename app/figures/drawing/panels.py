@@ -36,6 +36,7 @@ FAR = 12  # typographic points; a thin line leads from a point to its text if th
 # Typographic points between a text and a curve, for the edge of the text's patch and half the width of the curve; cost
 # of a text that is closer to a curve but not over the curve.
 CLEAR, CLOSE = 1.6, 0.2
+HIDES = 2.0  # cost of a text that crosses a curve; one that covers a curve from end to end costs three times as much
 INSET = 2.0  # typographic points between the text of an area and the edge of the area
 AWAY = 6  # largest additional distance between a horizontal line and its name, in half heights of the name
 # Number of steps in which the name of a line can be moved along the line; length of a downward step, as a multiple of
@@ -84,7 +85,7 @@ def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -
         _draw_line(axes, line, OUTLINE if panel.map is not None else {})
     several = len({mark.hue for mark in panel.marks}) > 1
     rising = sorted(panel.marks, key=lambda mark: mark.y)
-    for mark in rising:
+    for mark in reversed(rising):  # from the top down, as the names of levels
         style: Style = {"markersize": 5.5, "color": rcParams["figure.facecolor"], "mec": mark.hue, "mew": 1.6}
         axes.plot(mark.x, mark.y, "o", clip_on=False, zorder=5, **style)
         style = {"color": written(mark.hue) if several else rcParams["text.color"], "fontsize": TEXT}
@@ -453,7 +454,7 @@ def _hidden(curve: Path, box: Bbox, near: Bbox) -> float:
     x, y = np.asarray(curve.vertices).T
     inside = x[(x > near.x0) & (x < near.x1) & (y > near.y0) & (y < near.y1)]
     length = float(np.ptp(inside)) if inside.size else 0.0
-    return (1.0 if curve.intersects_bbox(box, filled=False) else CLOSE) + 2.0 * length / near.width
+    return (HIDES if curve.intersects_bbox(box, filled=False) else CLOSE) + 2.0 * HIDES * length / near.width
 
 
 def _places(kind: str, size: BboxBase, room: BboxBase, point: float) -> Iterator[tuple[tuple[float, float], float]]:
@@ -466,7 +467,7 @@ def _places(kind: str, size: BboxBase, room: BboxBase, point: float) -> Iterator
             off = gap + size.height / 2 + away * size.height / 2
             yield (-left, side * off), 0.05 * step + 0.02 * (side < 0) + 0.75 * away
     elif kind == "column":
-        for step, side in product(range(ALONG + 1), (0, 1, -1)):
+        for step, side in product(range(2 * ALONG + 1), (0, 1, -1)):
             below = gap + size.height / 2 + DOWN * step * size.height
             yield (side * (gap + size.width / 2), -below), 0.2 * step + 0.1 * abs(side)
     else:

@@ -148,7 +148,8 @@ def _kept(http: Request, path: str) -> Asked:
     kept, kept_ref = (answers.get(key_of(path, [("case", query.get(name, ""))])) for name in ("case", "ref_case"))
     if kept is None or (query.get("ref_case") and kept_ref is None):
         raise HTTPException(410, "The answer to this case is no longer stored; calculate the case again")
-    return Asked(path, [], {"theme": query.get("theme", "")}, kept, kept_ref)
+    looks = {name: query.get(name, "") for name in ("theme", "narrow")}
+    return Asked(path, [], looks, kept, kept_ref)
 
 
 async def _shown(http: Request, asked: Asked, view: Callable[..., views.Shown], *arguments: Any) -> views.Shown:

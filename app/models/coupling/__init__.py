@@ -30,6 +30,7 @@ CARD = Card(
             response=words.ORBIT,
             kernels=Kernels(SLEEVE),
             figures=figures.ORBIT_FIGURES,
+            words=words.ORBIT_WORDS,
         ),
         Calculation(
             path="/v1/coupling/recommendation",
@@ -41,6 +42,7 @@ CARD = Card(
             response=words.RECOMMENDATION,
             kernels=Kernels(SLEEVE),
             figures=figures.RECOMMENDATION_FIGURES,
+            words=words.RECOMMENDATION_WORDS,
         ),
     ),
     subject="coupling",

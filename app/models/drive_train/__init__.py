@@ -44,6 +44,7 @@ CARD = Card(
             response=words.WARM_UP,
             kernels=Kernels(DRIVE_TRAIN, THERMAL),
             figures=warm_up_figures.FIGURES,
+            words=words.WARM_UP_WORDS,
         ),
     ),
     subject="pair",

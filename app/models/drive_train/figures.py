@@ -406,7 +406,6 @@ METHOD, BALANCE = "temperatures.bulk_method", "asks_for_balance"
 DOUBLE = "gears.gap_width_mm"  # its presence makes the gears double helical
 FIGURES = (
     Declaration("shafts", "Shafts, bearings and couplings", "as described", shafts),
-    section(lambda inputs: inputs.mesh.distribution.gears),
     Declaration("helices", "Load and gap of both helices", OWN, helix_figures.over_both, asked_by=DOUBLE),
     Declaration(
         "thrust-shares",
@@ -416,12 +415,14 @@ FIGURES = (
         compute=helix_figures.over_the_thrust,
         asked_by=DOUBLE,
     ),
-    Declaration("shaft-lines", "Displaced shafts in both planes", OWN, shaft_lines),
     GAP,
-    Declaration("slope-parts", "Where the misalignment comes from", OWN, slope_parts),
     Declaration(
         "face-load", "Load along the face, with and without each effect", OWN, face_load, compute=effects_apart
     ),
+    Declaration("contact-temperature", "Contact temperature on the flank", "Xue 2020, Eq. 25", contact_temperature),
+    section(lambda inputs: inputs.mesh.distribution.gears),
+    Declaration("shaft-lines", "Displaced shafts in both planes", OWN, shaft_lines),
+    Declaration("slope-parts", "Where the misalignment comes from", OWN, slope_parts),
     Declaration(
         "face-heat",
         "Heat along the face, and what it does to the load",
@@ -431,7 +432,6 @@ FIGURES = (
         asked_if=BALANCE,
     ),
     Declaration("flank-load", "Line load on the flank", "Xue 2020, Fig. 11", flank_load),
-    Declaration("contact-temperature", "Contact temperature on the flank", "Xue 2020, Eq. 25", contact_temperature),
     Declaration(
         "micropitting",
         "Where will micropitting start?",

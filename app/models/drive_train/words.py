@@ -4,16 +4,21 @@ from types import GenericAlias
 from typing import Any
 
 from app.figures.wording import number, percent
-from app.models.card import FileResult, FromFile, ScuffingPaths, Words
+from app.models.card import FileResult, FromFile, ScuffingPaths, Verdict, Words
 from app.models.coupling.words import ProportionsInForce
-from app.models.load_distribution.words import MESH_DERIVED
+from app.models.load_distribution.words import MESH_DERIVED, carrying
 from app.models.scuffing.words import (
+    BULK_BY,
     LOAD_RESULTS,
     MICROPITTING_RESULTS,
     OPTIONAL_CHAPTERS,
     LocalPaths,
+    band_of,
     beside,
     how_well_known,
+    risk_of_scuffing,
+    tile_of_scuffing,
+    with_micropitting,
 )
 from app.schema.answers import Response, component, group, named
 from app.schema.quantities import View
@@ -86,9 +91,41 @@ WARM_UP = group(
 )
 
 
+def verdict(response: Any) -> Verdict:
+    """Judge scuffing, and micropitting where it is asked for; a double-helical unit by the helix that decides."""
+    least, hottest = response.safety.minimum, response.flash.contact_max_c
+    if least is not None:
+        first = risk_of_scuffing(least, band_of(response))
+    else:
+        reached = f" The contact reaches {number(hottest, '°C')}." if hottest is not None else ""
+        first = Verdict("plain", f"No safety against scuffing is stated.{reached}")
+    return with_micropitting(first, response)
+
+
+def verdicts(response: Any) -> dict[str, Verdict]:
+    """Judge the least safety factor; say what carries, and how the bulk temperature came about."""
+    return {
+        **tile_of_scuffing(_SAFETY, response.safety.minimum, band_of(response)),
+        _LOAD: Verdict("plain", carrying(response.load)),
+        _BULK: Verdict("plain", BULK_BY[response.derived.temperatures.bulk_method]),
+    }
+
+
+def warm_up_verdict(response: Any) -> Verdict:
+    """Judge the least safety factor of the warm-up."""
+    if response.least_safety is None:
+        return Verdict("plain", f"The bodies differ by {number(response.warm_up.greatest_difference_k, 'K')} at most.")
+    return risk_of_scuffing(response.least_safety, None, "S_B,min")
+
+
+def warm_up_verdicts(response: Any) -> dict[str, Verdict]:
+    """Judge the least safety factor on its tile."""
+    return tile_of_scuffing("least_safety", response.least_safety, None)
+
+
 def remarks(response: Any) -> dict[str, str]:
-    """Say how well the flank temperatures are known."""
-    return how_well_known(response, "heat.pinion.flank_c", "heat.wheel.flank_c")
+    """Say how well the temperatures of the flanks are known."""
+    return how_well_known(response, "heat.pinion.flank_c", "heat.wheel.flank_c", _BULK)
 
 
 def belongs(response: Any) -> dict[str, str]:
@@ -159,7 +196,26 @@ BESIDE = (
     ),
 )
 
+_SAFETY, _LOAD, _SLOPE = OF_A_HELIX
+_BULK, _PITTING = "derived.temperatures.bulk_c", "micropitting.local.safety"
+
 WORDS = Words(
+    verdict=verdict,
+    verdicts=verdicts,
+    tiles=(_BULK, _PITTING),
+    touches=dict.fromkeys(
+        # of bearings, couplings, losses and gas flows that no tile shows
+        (
+            *("thin_film", "thrust_reversal", "thrust_overload", "misalignment_limit", "edge_contact", "wide_contact"),
+            *("friction_indeterminate", "indeterminate_moment", "unstable_regime", "sleeve_position"),
+            *("sleeve_not_centred", "losses_exceed_power", "no_cold_solution", "net_flow_uncertain", "thin_tip"),
+        ),
+        (),
+    )
+    | dict.fromkeys(("short_bearing_range", "wide_bearing", "turbulent_film", "not_resolved"), (_LOAD, _SLOPE))
+    | dict.fromkeys(("micropitting_temperature", "micropitting_range"), (_PITTING,))
+    | dict.fromkeys(("bulk_lower_bound", "losses_overestimated", "measured_contradiction"), (_SAFETY, _BULK, _PITTING))
+    | {"edge_load": (_LOAD, _SLOPE), "low_peclet": (_SAFETY,)},
     remarks=remarks,
     belongs=belongs,
     conclusion=conclusion,
@@ -181,3 +237,4 @@ WORDS = Words(
         FileResult("losses.efficiency", "efficiency", "none"),
     ),
 )
+WARM_UP_WORDS = Words(verdict=warm_up_verdict, verdicts=warm_up_verdicts)

@@ -18,6 +18,7 @@ CARD = Card(
             response=words.LINE_CONTACT,
             kernels=Kernels(LINE_CONTACT),
             figures=figures.FIGURES,
+            words=words.WORDS,
         ),
     ),
 )

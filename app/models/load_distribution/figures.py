@@ -239,11 +239,8 @@ def pair_share(_: LoadDistributionInputs, result: LoadDistribution) -> Figure:
 
 
 FIGURES = (
-    section(lambda inputs: inputs.gears),
     Declaration("flank-load", "Line load on the flank", "Xue 2020, Fig. 11", flank_load),
     Declaration("flank-pressure", "Hertzian pressure on the flank", "Xue 2020, Figs. 13, 16, 17", flank_pressure),
-    Declaration("modification", "Modification of the flank", "Xue 2020, Fig. 15", modification),
-    Declaration("modification-traces", "Profile and helix charts", "Xue 2020, Fig. 15", traces),
     Declaration(
         "contact-line-load",
         "Line load along the face at the worst roll position",
@@ -253,6 +250,9 @@ FIGURES = (
     Declaration(
         "transmission-error", "Transmission error and length of contact", "Xue 2020, Figs. 5, 12", transmission_error
     ),
+    section(lambda inputs: inputs.gears),
+    Declaration("modification", "Modification of the flank", "Xue 2020, Fig. 15", modification),
+    Declaration("modification-traces", "Profile and helix charts", "Xue 2020, Fig. 15", traces),
     Declaration(
         "path-of-contact",
         "Load, pressure and sliding along the path of contact",

@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from app.figures.wording import percent
-from app.models.card import FromFile, Words
+from app.figures.wording import number, percent
+from app.models.card import FromFile, Verdict, Words
 from app.schema.answers import Response, component, group, named
 from app.schema.quantities import View
 from solvers.scuffing import results
@@ -62,8 +62,32 @@ def belongs(response: Any) -> dict[str, str]:
     return of_helix(response, "pressure.max_mpa", "load.face_load_factor", "transmission_error.peak_to_peak_um")
 
 
+def carrying(load: Any) -> str:
+    """Say how much of the contact carries load."""
+    share = load.contact_fraction
+    return "the whole contact carries" if share >= 1.0 else f"{percent(share)} of the contact carries"
+
+
+def verdicts(response: Any) -> dict[str, Verdict]:
+    """Say beside the face load factor how much of the contact carries load."""
+    return {"load.face_load_factor": Verdict("plain", carrying(response.load))}
+
+
+def verdict(response: Any) -> Verdict:
+    """Say how much of the contact carries load, how evenly, and with which pressure."""
+    load, pressure = response.load, response.pressure.max_mpa
+    if load.normal_force_n == 0.0:
+        return Verdict("plain", "No load: nothing presses the flanks together.")
+    said = carrying(load)
+    even = f"{said[0].upper()}{said[1:]}: K_Hβ {number(load.face_load_factor)}"
+    return Verdict("plain", f"{even}, {number(pressure, 'MPa')} at most." if pressure is not None else f"{even}.")
+
+
 WORDS = Words(
+    verdict=verdict,
+    verdicts=verdicts,
     belongs=belongs,
+    touches={"thin_tip": ()},
     chapters=OF_TWO_HELICES,
     losses=("friction_loss.power_w",),
     from_file=FromFile(MESH, unknown=NOT_OF_A_MESH),

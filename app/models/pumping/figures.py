@@ -285,13 +285,13 @@ def _without_temperatures() -> NoFigure:
 
 
 FIGURES = (
+    Declaration("mach-map", "Axial flow in the tooth spaces", "Milian 2004, Eq. 7", mach_map),
+    Declaration("peak-pressure", "Highest pressure along the face", "Milian 2004, Eq. 7", peak_pressure),
+    Declaration("temperature-map", "Temperature in the tooth spaces", "Milian 2004, Figs. 5, 6", temperature_map),
+    Declaration("pressure-map", "Pressure in the tooth spaces", "Milian 2004, Eqs. 1-4", pressure_map),
     section(lambda inputs: inputs.setup.gears),
     Declaration("stroke", "One stroke of a tooth space", "Milian 2004, Fig. 3", stroke),
     Declaration("heating", "Where along the face the mist heats the teeth", "Milian 2004, Figs. 5, 6", heating),
-    Declaration("peak-pressure", "Highest pressure along the face", "Milian 2004, Eq. 7", peak_pressure),
-    Declaration("pressure-map", "Pressure in the tooth spaces", "Milian 2004, Eqs. 1-4", pressure_map),
-    Declaration("mach-map", "Axial flow in the tooth spaces", "Milian 2004, Eq. 7", mach_map),
-    Declaration("temperature-map", "Temperature in the tooth spaces", "Milian 2004, Figs. 5, 6", temperature_map),
     Declaration("lead-correction", "Lead correction against thermal growth", "Milian 2004", lead_correction),
     Declaration("pulsation", "Pulsating flow at the ends of the face", "Milian 2004", pulsation),
     Declaration("mass-flow", "Where the mist leaves and enters the tooth spaces", "Milian 2004", mass_flow),

@@ -87,7 +87,7 @@ def _doubtful(name: str, uncertainty: float) -> Verdict:
     return Verdict("near", f"doubtful: {name} is uncertain by {percent(uncertainty)}")
 
 
-def conclusion(response: Any) -> str:
+def verdict(response: Any) -> Verdict:
     """Say which flows become sonic: outflow and inflow at the ends, and the flow through the radial clearances."""
     choking = response.choking
     numbers = {
@@ -100,33 +100,33 @@ def conclusion(response: Any) -> str:
         for word in ("choked", "doubtful", "not choked")
     }
     if told["choked"]:
-        first = f"The mesh is choked: {listed(told['choked'])}"
+        first = f"Choked: {listed(told['choked'])}"
         rest = [f"doubtful: {listed(told['doubtful'])}"] if told["doubtful"] else []
         rest += [f"not choked: {listed(told['not choked'])}"] if told["not choked"] else []
-        return "; ".join([first, *rest]) + "."
+        return Verdict("bad", "; ".join([first, *rest]) + ".")
     if told["doubtful"]:
-        return f"It is doubtful whether the mesh is choked, with {choking.slices} slices: {listed(told['doubtful'])}."
-    return f"The mesh is not choked: {listed(told['not choked'])} stay below the speed of sound."
+        return Verdict("near", f"Doubtful whether choked, with {choking.slices} slices: {listed(told['doubtful'])}.")
+    return Verdict("good", f"Not choked: {listed(told['not choked'])} stay below the speed of sound.")
 
 
 def _mach(mach: float, uncertainty: float) -> str:
     return f" (Ma {number(mach, '')} ± {percent(uncertainty)})"
 
 
-def choking_conclusion(response: Any) -> str:
+def choking_verdict(response: Any) -> Verdict:
     """Say above which pinion speeds the mesh is choked."""
     speeds = {
         "ends (outflow)": response.axial_choking_speed_rpm,
         "ends (inflow)": response.inflow_choking_speed_rpm,
         "radial clearances": response.radial_choking_speed_rpm,
     }
-    sonic = [f"at the {place} from {number(speed, '1/min')}" for place, speed in speeds.items() if speed is not None]
-    never = [
-        f"not at the {place} up to {number(response.inputs['search_limit_rpm'], '1/min')}"
-        for place, speed in speeds.items()
-        if speed is None
-    ]
-    return f"The flow becomes sonic {listed([*sonic, *never])} of the pinion."
+    limit = number(response.inputs["search_limit_rpm"], "1/min")
+    sonic = sorted((speed, place) for place, speed in speeds.items() if speed is not None)
+    told = [f"at the {place} from {number(speed, '1/min')}" for speed, place in sonic]
+    told += [f"not at the {place} up to {limit}" for place, speed in speeds.items() if speed is None]
+    if not sonic:
+        return Verdict("good", f"Does not choke up to {limit} of the pinion.")
+    return Verdict("plain", f"Chokes from {number(sonic[0][0], '1/min')} of the pinion: {listed(told)}.")
 
 
 def belongs(response: Any) -> dict[str, str]:
@@ -135,10 +135,21 @@ def belongs(response: Any) -> dict[str, str]:
     return {"total.pumping_power_w": "both helices, each with both ends open"} if double else {}
 
 
+def _both(name: str) -> tuple[str, str]:
+    """Return the paths of a headline number of the spaces of either gear."""
+    return f"pinion_spaces.{name}", f"wheel_spaces.{name}"
+
+
 WORDS = Words(
+    verdict=verdict,
     verdicts=verdicts,
     belongs=belongs,
-    conclusion=conclusion,
+    touches={
+        "net_flow_uncertain": (),
+        "no_energy_balance": ("total.pumping_power_w", *_both("max_temperature_rise_k")),
+        "pressure_not_resolved": _both("peak_pressure_ratio"),
+        "incompressible_mach": _both("peak_axial_mach"),
+    },
     losses=("total.pumping_power_w",),
     from_file=FromFile(
         frozenset({"gears"}),
@@ -146,4 +157,4 @@ WORDS = Words(
         renamed={"load.pinion_speed_rpm": "operation.pinion_speed_rpm"},
     ),
 )
-CHOKING_WORDS = Words(conclusion=choking_conclusion)
+CHOKING_WORDS = Words(verdict=choking_verdict)

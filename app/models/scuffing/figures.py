@@ -95,7 +95,12 @@ def contact_temperature(inputs: ScuffingInputs, result: Scuffing) -> Figure:
 
     def panel(path: ScuffingPath) -> Panel:
         lines = [replace(line, y=_bulk_of(result, line.title) + line.y) for line in _flashes(path)]
-        marks = parts.extreme(lines[:-1] or lines, y.unit)
+        methods = {"EHL": lines[:-1], "Blok": lines[-1:]} if len(lines) > 1 else {"": lines}
+        marks = [
+            replace(mark, text=f"{method} {mark.text}".strip())
+            for method, own in methods.items()
+            for mark in parts.extreme(own, y.unit)
+        ]
         return Panel(x=PATH, y=y, lines=lines, levels=levels, marks=marks)
 
     return _along(inputs, result, finding, panel)
@@ -338,6 +343,14 @@ FIGURES = (
     Declaration("flank-temperature", "Contact temperature on the flank", "Xue 2020, Eq. 25", temperature_on_flank),
     Declaration("safety", "Safety factor against scuffing along the path of contact", "Xue 2020, Eq. 26", safety_along),
     Declaration(
+        "micropitting",
+        "Where will micropitting start?",
+        "ISO/TR 15144-1, formula 2",
+        micropitting.where_it_starts,
+        compute=micropitting.solve_unmodified,
+        asked_by="micropitting",
+    ),
+    Declaration(
         "safety-band",
         "Safety over the bulk temperature",
         DERIVED,
@@ -345,6 +358,7 @@ FIGURES = (
         asked_by=METHOD,
         asked_if=BALANCE,
     ),
+    Declaration("film", "Film along the path of contact", "Xue 2020, Fig. 23", film),
     Declaration(
         "heat-flows",
         "Where the heat goes",
@@ -369,15 +383,6 @@ FIGURES = (
         compute=heat_balance.curve_over_the_flow,
         asked_by=METHOD,
         asked_if=BALANCE,
-    ),
-    Declaration("film", "Film along the path of contact", "Xue 2020, Fig. 23", film),
-    Declaration(
-        "micropitting",
-        "Where will micropitting start?",
-        "ISO/TR 15144-1, formula 2",
-        micropitting.where_it_starts,
-        compute=micropitting.solve_unmodified,
-        asked_by="micropitting",
     ),
     Declaration(
         "micropitting-film",

@@ -21,6 +21,8 @@ from solvers.scuffing.thermal.temperatures import with_friction
 KILOWATT, KELVIN = UNITS["kw"].scale, UNITS["c"].offset
 ROOM = 0.3  # share of the range of temperatures; room at both ends of the axis
 SMALL = 2e-3  # share of the heat supplied; smaller flows are left out
+ESTIMATE = "ISO/TS 6336-20"
+SAME_PLACE = 1.0  # K; marks that are closer are one
 FLOWS = np.geomspace(0.25, 4.0, 33)  # oil flows divided by the oil flow of the case
 SUPPLY = {
     "friction of the mesh": "friction of the mesh",
@@ -238,7 +240,10 @@ def safety_over_the_band(inputs: ScuffingInputs, result: Scuffing) -> Figure:
         "hot end of the band": heat.band.bulk[1],
     }
     estimate = heat.estimates.iso_tr_13989_bulk
-    points = bulks | ({} if estimate is None else {"ISO/TS 6336-20": estimate})
+    near = [name for name, at in bulks.items() if estimate is not None and abs(at - estimate) < SAME_PLACE][:1]
+    points = {f"{name}, {ESTIMATE}" if name in near else name: at for name, at in bulks.items()}
+    if estimate is not None and not near:
+        points[ESTIMATE] = estimate
     ends = sorted(points.values())
     bulk = np.linspace(ends[0] - 2.0, ends[-1] + 2.0, 101)
     line = Line("safety", bulk, _factors(safety.scuffing, oil, bulk + largest), named=False)
@@ -246,7 +251,7 @@ def safety_over_the_band(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     for name, at in points.items():
         factor = safety_factor(safety.scuffing, oil, at + largest)
         if factor is not None:
-            hue = Hue.GREY if name == "ISO/TS 6336-20" else line.hue
+            hue = Hue.GREY if name == ESTIMATE else line.hue
             marks.append(Mark(at, factor, f"{name}: {number(factor)} at {number(at, '°C')}", hue))
     low, high = heat.band.safety
     finding = f"safety factor {number(safety.blok_factor)} ({number(low)} to {number(high)})"

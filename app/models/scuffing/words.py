@@ -1,14 +1,16 @@
-"""What is said of the answers about scuffing: components, views, remarks, and what files take back."""
+"""What is said of the answers about scuffing: components, views, verdicts, remarks, and what files take back."""
 
 from typing import Any, NamedTuple
 
-from app.models.card import Beside, FileResult, FromFile, ScuffingPaths, Words
+from app.figures.wording import number
+from app.models.card import Beside, FileResult, FromFile, ScuffingPaths, Verdict, Words
 from app.models.load_distribution.words import (
     LOAD_DISTRIBUTION,
     MESH,
     NOT_OF_A_MESH,
     OF_TWO_HELICES,
     SCUFFING_DERIVED,
+    carrying,
     of_helix,
 )
 from app.schema.answers import Response, component, group, named
@@ -20,6 +22,7 @@ from solvers.scuffing import safety_results as results
 from solvers.scuffing.load_factors.results import LoadFactors
 from solvers.scuffing.micropitting import results as film_results
 from solvers.scuffing.standard import results as standard_results
+from solvers.scuffing.thermal.practice import scuffing_risk
 
 OPTIONAL_CHAPTERS = {"micropitting": "micropitting", "heat": "heat-balance"}
 ABOVE_ONE = View(limit=1.0, bound="lower")
@@ -89,6 +92,13 @@ SCUFFING = group(
     fields={"flank": HEATED_FLANK | None, "derived": DERIVED},
 )
 
+LEVEL_OF_MICROPITTING = {"micropitting is likely": "bad", "limited margin": "near", "micropitting is unlikely": "good"}
+BULK_BY = {
+    "given": "given",
+    "estimated": "estimated",
+    "between": "between estimate and heat balance",
+    "heat_balance": "by the heat balance",
+}
 NOT_VALIDATED = "not_validated"
 KNOWN = f"known to about ±{KNOWN_WITHIN:g} K"
 
@@ -98,6 +108,76 @@ def how_well_known(response: Response, *paths: str) -> dict[str, str]:
     return dict.fromkeys(paths, KNOWN) if NOT_VALIDATED in {notice.code for notice in response.warnings} else {}
 
 
+LEVEL_OF_RISK = {"high": "bad", "moderate": "near", "low": "good"}
+
+
+def risk_of_scuffing(safety: float, band: list[float] | None, symbol: str = "S_B") -> Verdict:
+    """Judge a safety factor in the words of ISO/TS 6336-20, at the worse end of its band: the first sentence."""
+    worst = min(band) if band else safety
+    risk, least = scuffing_risk(worst), f", at worst {number(worst)}" if band else ""
+    return Verdict(LEVEL_OF_RISK[risk], f"{risk.capitalize()} risk of scuffing: {symbol} {number(safety)}{least}.")
+
+
+def tile_of_scuffing(path: str, safety: float | None, band: list[float] | None) -> dict[str, Verdict]:
+    """Judge the safety factor at `path` on its tile; empty without a safety factor."""
+    if safety is None:
+        return {}
+    worst = min(band) if band else safety
+    risk = scuffing_risk(worst)
+    text = f"at worst {number(worst)}: {risk}" if band else f"{risk} risk of scuffing"
+    return {path: Verdict(LEVEL_OF_RISK[risk], text)}
+
+
+def band_of(response: Any) -> list[float] | None:
+    """Return the ends of the safety factor that the heat balance leaves open; None if there is no band."""
+    band = response.heat.band if response.heat is not None else None
+    return band.safety if band is not None else None
+
+
+def risk_of_micropitting(response: Any) -> Verdict | None:
+    """Judge the safety factor against micropitting; None if it is not asked for or not known."""
+    local = response.micropitting.local if response.micropitting is not None else None
+    if local is None or local.safety is None:
+        return None
+    level = LEVEL_OF_MICROPITTING[local.verdict]
+    return Verdict(
+        level, f"Micropitting: S_λ {number(local.safety)}, {local.verdict.removeprefix('micropitting is ')}."
+    )
+
+
+def verdict(response: Any) -> Verdict:
+    """Judge scuffing, and micropitting where it is asked for; the worse of both gives the level."""
+    safety, hottest = response.safety, response.contact_temperature
+    if safety is not None and safety.blok_factor is not None:
+        first = risk_of_scuffing(safety.blok_factor, band_of(response))
+    elif safety is not None:
+        first = Verdict("plain", "No risk of scuffing stated: no contact is hotter than the oil.")
+    else:
+        hot = number(hottest.blok_max_c, "°C") if hottest is not None and hottest.blok_max_c is not None else ""
+        reached = f" The contact reaches {hot}." if hot else ""
+        first = Verdict("plain", f"No verdict without a scuffing temperature.{reached}")
+    return with_micropitting(first, response)
+
+
+def with_micropitting(first: Verdict, response: Any) -> Verdict:
+    """Return the verdict with that on micropitting behind it; the worse of both gives the level."""
+    second = risk_of_micropitting(response)
+    if second is None:
+        return first
+    worse = max(first.level, second.level, key=("plain", "good", "near", "bad").index)
+    return Verdict(worse, f"{first.text} {second.text}")
+
+
+def verdicts(response: Any) -> dict[str, Verdict]:
+    """Judge the safety factor; say what carries, and how the bulk temperature came about."""
+    factor = response.safety.blok_factor if response.safety is not None else None
+    return {
+        **tile_of_scuffing(_SAFETY, factor, band_of(response)),
+        _LOAD: Verdict("plain", carrying(response.load)),
+        _BULK: Verdict("plain", BULK_BY[response.derived.bulk_method]),
+    }
+
+
 def remarks(response: Any) -> dict[str, str]:
     """Say how well the bulk temperature is known."""
     return how_well_known(response, "contact_temperature.bulk_c")
@@ -105,7 +185,7 @@ def remarks(response: Any) -> dict[str, str]:
 
 def belongs(response: Any) -> dict[str, str]:
     """Name the helix to which the headline numbers belong."""
-    return of_helix(response, "safety.blok_factor", "contact_temperature.blok_max_c", "film.thickness_ratio")
+    return of_helix(response, _SAFETY, _HOTTEST, _FILM, _LOAD, _BULK, _PITTING)
 
 
 LOAD_RESULTS = (
@@ -211,7 +291,24 @@ LOCAL = LocalPaths(
     safety="safety.blok_factor",
 )
 
+_SAFETY, _HOTTEST, _FILM = "safety.blok_factor", "contact_temperature.blok_max_c", "film.thickness_ratio"
+_LOAD, _BULK, _PITTING = "load.face_load_factor", "contact_temperature.bulk_c", "micropitting.local.safety"
+
 WORDS = Words(
+    verdict=verdict,
+    verdicts=verdicts,
+    tiles=(_LOAD, _BULK, _PITTING),
+    touches={
+        "low_peclet": (_SAFETY, _HOTTEST),
+        "bulk_lower_bound": (_SAFETY, _HOTTEST, _FILM, _BULK, _PITTING),
+        "losses_overestimated": (_SAFETY, _HOTTEST, _FILM, _BULK, _PITTING),
+        "measured_contradiction": (_SAFETY, _HOTTEST, _FILM, _BULK, _PITTING),
+        "micropitting_temperature": (_PITTING,),
+        "micropitting_range": (_PITTING,),
+        "unsolved_points": (_FILM,),
+        "edge_load": (_LOAD,),
+        "thin_tip": (),
+    },
     remarks=remarks,
     belongs=belongs,
     chapters=OPTIONAL_CHAPTERS | OF_TWO_HELICES,

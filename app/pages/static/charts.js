@@ -39,7 +39,8 @@ function prepareChart(plot) {
   const wake = async (event) => {
     plot.removeEventListener("pointerenter", wake);
     plot.removeEventListener("focus", wake);
-    const { panels } = await values();
+    const found = await values();
+    const panels = isNarrow() ? found.narrow : found.panels;
     if (panels.length) follow(plot, panels);
     plot.dispatchEvent(new PointerEvent("pointermove", event));
   };
@@ -47,10 +48,15 @@ function prepareChart(plot) {
   plot.addEventListener("focus", wake);
 }
 
+// Whether the page shows the images for phones; the width is that of the images' sources.
+function isNarrow() {
+  return matchMedia("(max-width: 40rem)").matches;
+}
+
 async function valuesOf(plot) {
   if (!plot.dataset.values) return JSON.parse(plot.dataset.content);
   const answer = await fetch(plot.dataset.values);
-  return answer.ok ? answer.json() : { panels: [], header: [], lines: [], more: 0 };
+  return answer.ok ? answer.json() : { panels: [], narrow: [], header: [], lines: [], more: 0 };
 }
 
 function fillTable(details, { header, lines, more }) {

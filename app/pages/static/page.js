@@ -136,7 +136,7 @@ function takeField(here, fresh) {
   const empty = here.querySelector(".blank");
   empty.textContent = fresh.querySelector(".blank").textContent;
   empty.hidden = !empty.textContent;
-  here.querySelector(".help").replaceChildren(...fresh.querySelector(".help").cloneNode(true).childNodes);
+  here.querySelector(".help")?.replaceChildren(...fresh.querySelector(".help").cloneNode(true).childNodes);
   here.querySelector(".assumed")?.remove();
   const mark = fresh.querySelector(".assumed");
   if (mark) (here.querySelector(":scope > label") ?? here).append(" ", document.adoptNode(mark));
@@ -148,6 +148,17 @@ function clearFellows(control) {
   if (!control.value.trim()) return;
   for (const other of form.querySelectorAll("input:not([type=radio]), select, textarea")) {
     if (names.some((name) => other.name === name || other.name.startsWith(`${name}.`))) other.value = "";
+  }
+}
+
+// The switch of an optional section says yes once a field of the section is filled in. To say no empties the section.
+function followSwitch(control) {
+  for (let part = control.closest("[data-section]"); part; part = part.parentElement.closest("[data-section]")) {
+    const own = [...part.querySelectorAll("select")].find((each) => each.name === part.dataset.section);
+    if (own && own !== control && control.value.trim()) own.value = own.options[1].value;
+    if (own === control && !own.value) {
+      part.querySelectorAll("input:not([type=radio]), select, textarea").forEach((each) => { each.value = ""; });
+    }
   }
 }
 
@@ -181,7 +192,7 @@ function prepareResult() {
   document.querySelectorAll(".plot").forEach(prepareChart);
 }
 
-form.addEventListener("input", (event) => { clearFellows(event.target); schedule(); });
+form.addEventListener("input", (event) => { clearFellows(event.target); followSwitch(event.target); schedule(); });
 form.addEventListener("change", schedule);
 form.addEventListener("input", (event) => { if (event.target.dataset.count) count(event.target); });
 form.addEventListener("submit", (event) => {

@@ -71,10 +71,11 @@ function prepareStudy(plot) {
   const show = (i, j) => {
     at = [i, j];
     const image = plot.querySelector("img");
+    const box = isNarrow() ? study.narrow : study.box;
     const [x, y] = place(i, j);
     ring.hidden = value(i, j) === null && !study.map;
-    ring.style.left = `${(study.box[0] + x * study.box[2]) * image.clientWidth}px`;
-    ring.style.top = `${(study.box[1] + (1 - y) * study.box[3]) * image.clientHeight}px`;
+    ring.style.left = `${(box[0] + x * box[2]) * image.clientWidth}px`;
+    ring.style.top = `${(box[1] + (1 - y) * box[3]) * image.clientHeight}px`;
     const named = study.axes.map((axis, rank) => `${axis.name} ${rounded(axis.at[at[rank]])} ${axis.unit}`.trim());
     const found = value(i, j) === null ? "no solution" : `${rounded(value(i, j))} ${study.unit}`.trim();
     reading.textContent = `${named.join(", ")}: ${study.title} ${found}. Click to open this case.`;
@@ -88,8 +89,9 @@ function prepareStudy(plot) {
   };
   const nearestPoint = (event) => {
     const image = plot.querySelector("img").getBoundingClientRect();
-    const x = ((event.clientX - image.left) / image.width - study.box[0]) / study.box[2];
-    const y = 1 - ((event.clientY - image.top) / image.height - study.box[1]) / study.box[3];
+    const box = isNarrow() ? study.narrow : study.box;
+    const x = ((event.clientX - image.left) / image.width - box[0]) / box[2];
+    const y = 1 - ((event.clientY - image.top) / image.height - box[1]) / box[3];
     if (x < -0.03 || x > 1.03 || y < -0.05 || y > 1.05) return null;
     const i = least(xs.map((_, index) => Math.abs(share(xs[index], study.ranges[0]) - x)));
     return [i, least(ys.map((_, index) => Math.abs(place(i, index)[1] - y)))];

@@ -357,7 +357,8 @@ def drawn(page: StudyPage, lines: list[Line], done: int | None = None) -> bytes:
     ended_early = last["type"] == "error"
     has_result = last["type"] == "end" or (page.grows and (before if ended_early else lines))
     result = page.result(lines) if has_result else Result("")
-    charts = [embedded(name, figure, page.asked.theme) for name, figure in result.figures.items()]
+    grows = done is not None and not ended_early
+    charts = [embedded(name, figure, page.asked.theme, grows=grows) for name, figure in result.figures.items()]
     if charts:
         charts[0] = replace(charts[0], study=result.script)
     return rendered(

@@ -15,6 +15,7 @@ from app.errors import Unprocessable
 from app.figures.data import Figure, values
 from app.figures.studies import Coordinate, Grid, answer, figures_of
 from app.figures.units import axis_of
+from app.pages.charts import for_phones
 from app.pages.form import FieldView
 from app.pages.studies.controls import Control, choices_of, field_choices, has_numbers
 from app.pages.studies.controls import is_number as is_plain_number
@@ -304,6 +305,7 @@ class SweepPage(StudyPage):
             "unit": self.output.unit or "",
             "map": place.panel.map is not None,
             "box": place.box,
+            "narrow": places_of(for_phones(figure))[0].box,
             "ranges": [place.x, place.y],
         }
         return json.dumps(content)
