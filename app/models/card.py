@@ -84,6 +84,7 @@ class Words:
                    code that is missing here
     belongs        what headline numbers belong to, by path, such as the helix that decides
     remarks        how well results are known, by path
+    hands_on       results that become inputs of other calculations: by endpoint, the path there and that of the answer
     losses         powers that a load spectrum averages
     scuffing       the temperatures that a load spectrum compares unless it names limits
     of_the_film    outputs that need the thermal film (`*` for an index), beside those with `thermal_ehl` in their path;
@@ -101,6 +102,7 @@ class Words:
     conclusion: Callable[[Any], str] = lambda _: ""
     belongs: Callable[[Any], dict[str, str]] = lambda _: {}
     remarks: Callable[[Any], dict[str, str]] = lambda _: {}
+    hands_on: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     losses: tuple[str, ...] = ()
     scuffing: ScuffingPaths | None = None
     of_the_film: frozenset[str] | None = None

@@ -1,8 +1,9 @@
 """Links that carry the gears or the coupling of a page to the pages of other calculations.
 
-A link fills in all fields that the other calculation has. The query field `pair` of the link keeps the values of the
-remaining fields, so that a later link can fill them in again. If the link would be too long, `pair` is left out. If
-the values were read from a REXS file, the link also names this file.
+A link fills in all fields that the other calculation has, and what the answer of the page hands on to it, such as the
+crowning that was found. The query field `pair` of the link keeps the values of the remaining fields, so that a later
+link can fill them in again. If the link would be too long, `pair` is left out. The link also says where the values came
+from: a REXS file, or the typical shafts.
 """
 
 from collections.abc import Iterable, Iterator
@@ -11,9 +12,9 @@ from urllib.parse import urlencode
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation, card_of
 from app.pages.cases import Asked
-from app.pages.query import LONGEST_QUERY, Pairs, link, pairs_of_query
+from app.pages.query import LONGEST_QUERY, Pairs, excluded, link, pairs_of_query
 from app.pages.templating import page_path
-from app.schema.fields import Branch, Leaf, branches, is_below, leaf_at, matrix_at, pattern_of, tree
+from app.schema.fields import Branch, Leaf, branches, is_below, leaf_at, matrix_at, pair_at, pattern_of, tree, value_at
 from app.schema.model import Documented
 
 LOAD, OPERATION = "load.", "operation."
@@ -24,37 +25,97 @@ requests.
 """
 
 
+DIGITS = 6  # of a result that becomes an input
+
+
 class Use(NamedTuple):
     """A link that opens the same gears or the same coupling on the page of another calculation.
 
-    `missing` holds the titles of the fields that the other calculation requires and that the link does not fill in.
+    `missing` holds the titles of the fields that the other calculation requires and that the link does not fill in;
+    `found` holds the titles of the fields whose values are results of the page.
     """
 
     title: str
     address: str
     missing: list[str]
+    found: list[str]
 
 
-def uses(asked: Asked) -> list[Use]:
+class Offer(NamedTuple):
+    """A link that takes a result of another calculation as an input of the case: the title of the input, and where."""
+
+    title: str
+    source: str
+    address: str
+
+
+def uses(asked: Asked, answer: Any = None) -> list[Use]:
     """Return links to all other calculations that accept the same gears or the same coupling."""
     subject = card_of(asked.calculation).subject
     others = (other for other in CALCULATIONS if other is not asked.calculation and card_of(other).subject == subject)
-    return [_use(asked, other) for other in others] if subject else []
+    return [use_in(asked, other, answer) for other in others] if subject else []
 
 
-def _use(asked: Asked, other: Calculation) -> Use:
-    """Return the link to the calculation `other`, filled in with the fields of the page."""
-    own = [(_common(asked.calculation, name), text) for name, text in asked.pairs]
-    beyond = pairs_of_query(asked.views.get("pair", ""))
-    fields = dict(beyond) | dict(own)
-    there = {name: _there(other, name) for name in fields}
-    taken: Pairs = [(there[name], text) for name, text in fields.items() if _has(other.request, there[name])]
-    left: Pairs = [(name, text) for name, text in fields.items() if not _has(other.request, there[name])]
-    views = {"theme": asked.theme, **asked.file}
-    address = link(page_path(other), taken, **views, pair=urlencode(left, safe=",:", errors="replace"))
+def use_in(asked: Asked, other: Calculation, answer: Any = None) -> Use:
+    """Return the link to the calculation `other`, with the fields of the page and with what its `answer` hands on."""
+    there = carried_to(asked, other, answer)
+    titles = [
+        leaf.declared.title for path in _handed_on(asked.calculation, other, answer) if (leaf := _leaf(other, path))
+    ]
+    address = link(there.path, there.pairs, theme=there.theme, **there.carried)
     if len(address) > LONGEST_QUERY:
-        address = link(page_path(other), taken, **views)
-    return Use(other.title, address, [*_missing(tree(other.request), {name for name, _ in taken})])
+        address = link(there.path, there.pairs, theme=there.theme, **there.carried | {"pair": None})
+    return Use(other.title, address, missing(there), titles)
+
+
+def carried_to(asked: Asked, other: Calculation, answer: Any = None) -> Asked:
+    """Return the case of the calculation `other` that has the fields of the page, and what its `answer` hands on."""
+    found = _handed_on(asked.calculation, other, answer)
+    replaced = {name for path in found if (leaf := _leaf(other, path)) for name in excluded(path, leaf)}
+    own = [(_common(asked.calculation, name), text) for name, text in asked.pairs]
+    fields = dict(pairs_of_query(asked.views.get("pair", ""))) | dict(own)
+    there = {name: _there(other, name) for name in fields}
+    stated = {there[name]: text for name, text in fields.items() if _has(other.request, there[name])}
+    taken = {name: text for name, text in stated.items() if name not in replaced} | found
+    left: Pairs = [(name, text) for name, text in fields.items() if not _has(other.request, there[name])]
+    views = {name: text for name, text in asked.carried.items() if text}
+    views |= {"pair": urlencode(left, safe=",:", errors="replace"), "theme": asked.theme or ""}
+    return Asked(
+        page_path(other), [*taken.items()], {name: text for name, text in views.items() if text}, root=asked.root
+    )
+
+
+def missing(asked: Asked) -> list[str]:
+    """Return the titles of the fields that the case lacks."""
+    return [*_missing(tree(asked.calculation.request), {name for name, _ in asked.pairs})]
+
+
+def _leaf(calculation: Calculation, path: str) -> Leaf | None:
+    return leaf_at(calculation.request, path)
+
+
+def _handed_on(calculation: Calculation, other: Calculation, answer: Any) -> dict[str, str]:
+    """Return the fields of the other calculation that are results in the answer, with the texts of these results."""
+    paths = calculation.words.hands_on.get(other.path, {}) if answer is not None else {}
+    values = {there: value_at(answer, path) for there, path in paths.items()}
+    return {there: f"{value:.{DIGITS}g}" for there, value in values.items() if value is not None}
+
+
+def offers(asked: Asked) -> list[Offer]:
+    """Return links that solve another calculation for the same case and come back with its result as an input.
+
+    A field that is already given gets no link.
+    """
+    given = {name for name, _ in asked.pairs}
+    found = []
+    for other in CALCULATIONS:
+        paths = [path for path in other.words.hands_on.get(asked.calculation.path, ()) if path not in given]
+        use = use_in(asked, other)
+        if paths and asked.pairs and not use.missing:
+            titles = (leaf.declared.title for path in paths if (leaf := _leaf(asked.calculation, path)))
+            place, _, query = use.address.partition("?")
+            found.append(Offer(" and ".join(titles), other.title, f"{place}/into{asked.path}?{query}"))
+    return found
 
 
 def _common(calculation: Calculation, name: str) -> str:
@@ -74,7 +135,9 @@ def _there(calculation: Calculation, name: str) -> str:
 
 def _has(model: type[Documented], name: str) -> bool:
     """Return whether a request has a field, a matrix element or an optional section of this name."""
-    return bool(leaf_at(model, name) or matrix_at(model, name)) or pattern_of(name) in branches(model)
+    return bool(leaf_at(model, name) or matrix_at(model, name) or pair_at(model, name)) or pattern_of(name) in branches(
+        model
+    )
 
 
 def _missing(branch: Branch, names: set[str]) -> Iterator[str]:

@@ -33,7 +33,8 @@ from app.sources import SHORT_SOURCES, changes_since
 from solvers.quantity import Detail
 
 NAME = r"[a-z]\w*(?:[._]\w+)+"  # name of a field: words joined by points and underscores
-FILE_NAMES = ("rexs_file", "rexs_sha256", "rexs_stage")  # query fields that name the REXS file of a case
+CARRIED_NAMES = ("rexs_file", "rexs_sha256", "rexs_stage", "typical", "pair")
+"""Query fields that go with a case to all its pages: its REXS file, its typical shafts, and inputs of other pages."""
 COMPRESSION = 1  # the fastest level of zlib
 REFUSED = (Unreadable, InvalidBody, Unprocessable)
 
@@ -140,26 +141,32 @@ class Asked:
     def beside(self, ref: str) -> str:
         """Return the address of the page that compares the case with the case in the query `ref`."""
         also = self.views.get("also") if ref else None
-        views = {"ref": ref, "also": also, "pair": self.views.get("pair"), "theme": self.theme, "title": self.title}
-        return link(self.path, self.pairs, **views, **self.file, sources=SHORT_SOURCES)
+        views = {"ref": ref, "also": also, "theme": self.theme, "title": self.title}
+        return link(self.path, self.pairs, **views, **self.carried, sources=SHORT_SOURCES)
 
     def view(self, name: str, **views: str | None) -> str:
         """Return the address of a page or a file of the case; `name` is the end of the path."""
         return link(f"{self.path}/{name}", self.pairs, **views)
 
     @property
-    def file(self) -> dict[str, str | None]:
-        """The name and the SHA-256 of the REXS file from which the case was read, and the stage in this file."""
-        return {name: self.views.get(name) for name in FILE_NAMES}
+    def carried(self) -> dict[str, str | None]:
+        """The query fields that go with the case to all its pages."""
+        return {name: self.views.get(name) for name in CARRIED_NAMES}
 
     @property
     def report(self) -> str:
-        """The address of the report of the case. The report also shows the variant if there is one."""
-        return self.view("report", ref=self.ref, title=self.title, **self.file, sources=SHORT_SOURCES)
+        """The address of the report of the case. The report also shows all variants."""
+        return self.reported()
+
+    def reported(self, **views: str | None) -> str:
+        """Return the address of the report of the case, for example with another extent."""
+        also = self.views.get("also") if self.ref else None
+        own = {"ref": self.ref, "also": also, "title": self.title}
+        return self.view("report", **own, **self.carried, **views, sources=SHORT_SOURCES)
 
     def study(self, name: str) -> str:
         """Return the address of the page of a study of the case."""
-        return self.view(name, theme=self.theme, title=self.title, **self.file)
+        return self.view(name, theme=self.theme, title=self.title, **self.carried)
 
     def image(self, figure: str, image_format: str, theme: ThemeName | None = None, *, narrow: bool = False) -> str:
         """Return the address of a figure's file; a narrow figure suits a phone."""

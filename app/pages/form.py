@@ -36,7 +36,7 @@ class FormState:
     values that an answer used for the fields. `assumed` are the fields whose default is our own assumption. `required`
     is the remark beside required fields, for example "required if used" in an optional section. `deciding` are the
     fields on which a verdict depends; the sections of these fields are open. `endpoint` is the endpoint to which the
-    form belongs.
+    form belongs. `rules` are the rules of fields that are given but assumed, such as those of typical shafts.
     """
 
     texts: Mapping[str, str] = field(default_factory=dict)
@@ -46,6 +46,7 @@ class FormState:
     required: str = REQUIRED
     deciding: AbstractSet[str] = frozenset()
     endpoint: str = ""
+    rules: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -194,7 +195,7 @@ def form(request: type[Request], state: FormState) -> tuple[FormSection, ...]:
 
 def _section(title: str, blocks: Iterable[Block], state: FormState, paths: list[str], **settled: Any) -> FormSection:
     """Return a section of the form, with the fields of the request at or below `paths`."""
-    groups = (state.texts, state.faults, state.assumed, state.deciding)
+    groups = (state.texts, state.faults, {*state.assumed, *state.rules}, state.deciding)
     given, faulty, assumed, deciding = (sum(_count(names, path) for path in paths) for names in groups)
     attributes: dict[str, Any] = {
         "path": paths[0],
@@ -323,8 +324,10 @@ def _choice(group: tuple[Leaf, ...], prefix: str, state: FormState, required: st
 
 
 def _own(leaf: Leaf, name: str, state: FormState) -> FieldView:
-    """View of a field that has no alternative fields. The view of a matrix contains a view of each element."""
+    """View of a field that has no alternative fields. The view of a matrix or a pair has a view of each element."""
     whole, resolved = field_view(leaf, name, state), state.resolved.get(name)
+    if leaf.pair:
+        return _pair(leaf, whole, state)
     if leaf.dimensions < MATRIX:
         return whole
     elements = tuple(
@@ -339,6 +342,25 @@ def _own(leaf: Leaf, name: str, state: FormState) -> FieldView:
             fault=state.faults.get(f"{name}.{row}.{column}", whole.fault if row == column == 0 else None),
         )
         for row, column in product(range(SIDE), repeat=2)
+    )
+    return replace(whole, elements=elements, kind="matrix")
+
+
+def _pair(leaf: Leaf, whole: FieldView, state: FormState) -> FieldView:
+    """View of two numbers that belong together, such as the ends of a range: a field for each of them."""
+    used = state.resolved.get(whole.name, leaf.default) or (None, None)
+    names = (leaf.declared.index or "first, second").split(", ")
+    elements = tuple(
+        replace(
+            whole,
+            name=f"{whole.name}.{place}",
+            label=f"{whole.label}, {name}",
+            widget="number",
+            text=state.texts.get(f"{whole.name}.{place}", ""),
+            placeholder=name if value is None else f"{value:.6g}",
+            fault=state.faults.get(f"{whole.name}.{place}", whole.fault if place == 0 else None),
+        )
+        for place, (name, value) in enumerate(zip(names, used, strict=True))
     )
     return replace(whole, elements=elements, kind="matrix")
 
@@ -361,8 +383,8 @@ def field_view(leaf: Leaf, name: str, state: FormState) -> FieldView:
         placeholder=_placeholder(leaf, value) or (rule if fits else ""),
         options=options,
         required=state.required if leaf.required else "",
-        assumed=name in state.assumed,
-        help=_help(leaf, assumed=name in state.assumed),
+        assumed=name in state.assumed or name in state.rules,
+        help=(*_help(leaf, assumed=name in state.assumed), *_rule(name, state)),
         fault=state.faults.get(name),
         excludes=excluded(name, leaf),
         source=cited(leaf.declared.source or ""),
@@ -415,6 +437,11 @@ def _help(leaf: Leaf, *, assumed: bool) -> tuple[str, ...]:
         f"Instead of: {', '.join(fellows)}." if leaf.exclusive else "",
     ]
     return tuple(cited(line) for line in lines if line)
+
+
+def _rule(name: str, state: FormState) -> tuple[str, ...]:
+    """Return a line of help that states by which rule the value of the field is assumed."""
+    return (f"Assumed, typical: {state.rules[name]}.",) if name in state.rules else ()
 
 
 def _last(path: str) -> str:

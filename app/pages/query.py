@@ -21,7 +21,7 @@ from app.pages.typed import (
     table_in_link,
     text_of,
 )
-from app.schema.fields import Leaf, branches, leaf_at, matrix_at, pattern_of
+from app.schema.fields import Leaf, branches, leaf_at, matrix_at, pair_at, pattern_of
 from app.schema.model import Documented
 
 Pairs = list[tuple[str, str]]
@@ -40,7 +40,8 @@ REPORT_NAMES = {
 }
 """The fields that identify a report, with the largest permissible number of characters of each field."""
 VIEW_NAMES = REPORT_NAMES.keys() | {
-    *("paper", "ref", "also", "pair", "theme", "sources", "curve", "unlinked", "extent", "rexs_stage", "narrow")
+    *("paper", "ref", "also", "pair", "typical", "theme", "sources", "curve", "unlinked", "extent", "rexs_stage"),
+    "narrow",
 }
 """Names of query fields that affect only how a case is shown.
 
@@ -62,6 +63,7 @@ DEEPEST = 12  # largest number of parts of a name; the names of all fields have 
 LONGEST_QUERY = 6000  # characters; common proxies refuse a request line of more than 8 KiB
 LONGEST_NAME = 100  # characters of a name; the names of all fields are shorter
 MATRIX = 2  # number of dimensions
+PAIR = 2  # numbers of a pair
 SIDE = 2  # rows and columns of a matrix, one for each of the two directions across a shaft
 PRESENT = "on"
 
@@ -104,8 +106,9 @@ def _plain(pairs: Iterable[tuple[str, str]]) -> Pairs:
 
 def written_of(model: type[Documented], pairs: Pairs) -> str:
     """Return the value of the hidden field `WRITTEN` for a form that is filled in with the texts of a link."""
-    all_of = dict(pairs)
-    kept = [(name, text) for name, text in pairs if as_typed(text) == text != _in_link(model, name, text, all_of)]
+    both = [*pairs, *(pair for pair in with_pairs_apart(model, pairs) if pair not in pairs)]
+    all_of = dict(both)
+    kept = [(name, text) for name, text in both if as_typed(text) == text != _in_link(model, name, text, all_of)]
     return urlencode(kept, safe=",:", errors="replace")
 
 
@@ -122,10 +125,11 @@ def _in_link(model: type[Documented], name: str, text: str, others: dict[str, st
             return in_link(text, unit)
         deviation = in_link(text, difference_unit(unit))
         return deviation if deviation != text else in_link(text, unit)
-    leaf = leaf_at(model, name) or matrix_at(model, name)
+    leaf = leaf_at(model, name) or matrix_at(model, name) or pair_at(model, name)
     if leaf is None or leaf.options or leaf.kind not in {"number", "integer"}:
         return text
-    return list_in_link(text, leaf.unit) if leaf.dimensions == 1 else in_link(text, leaf.unit)
+    is_list = leaf.dimensions == 1 and leaf_at(model, name) is not None
+    return list_in_link(text, leaf.unit) if is_list else in_link(text, leaf.unit)
 
 
 def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
@@ -133,7 +137,7 @@ def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
 
     Empty fields are left out. If the user has chosen one of several fields that exclude each other, the fields that the
     user did not choose are left out. The fields that state such a choice (see `PICK`) are left out too. The items of
-    lists are renumbered.
+    lists are renumbered. Two numbers that belong together become one field.
     """
     picked = {text for name, text in pairs if name.startswith(PICK)}
     kept: Pairs = []
@@ -146,7 +150,34 @@ def normalised(model: type[Documented], pairs: Pairs) -> Pairs:
             kept.append((name, text))
     for path in (path for path, branch in branches(model).items() if branch.repeated):
         kept = _renumbered(path, kept)
-    return kept
+    return _with_pairs_joined(model, kept)
+
+
+def _with_pairs_joined(model: type[Documented], pairs: Pairs) -> Pairs:
+    """Join the numbers of each pair, such as the ends of a range; leave a pair apart that lacks a number."""
+    texts, joined = dict(pairs), list[tuple[str, str]]()
+    for name, text in pairs:
+        whole, _, item = name.rpartition(".")
+        both = [texts.get(f"{whole}.{place}", "") for place in "01"]
+        whole_pair = pair_at(model, name) is not None and not any(
+            isinstance(plain_number_of(each), str) for each in both
+        )
+        if not whole_pair:
+            joined.append((name, text))
+        elif item == "0":
+            joined.append((whole, ",".join(both)))
+    return joined
+
+
+def with_pairs_apart(model: type[Documented], pairs: Pairs) -> Pairs:
+    """Return the fields as a form shows them: each pair of numbers as two fields."""
+    apart = list[tuple[str, str]]()
+    for name, text in pairs:
+        leaf = leaf_at(model, name)
+        items = [item for item in re.split(r"[\s;,]+", text) if item]
+        is_pair = leaf is not None and leaf.pair and len(items) == PAIR
+        apart += [(f"{name}.{place}", item) for place, item in enumerate(items)] if is_pair else [(name, text)]
+    return apart
 
 
 def _renumbered(path: str, pairs: Pairs) -> Pairs:
@@ -223,7 +254,7 @@ def _value(model: type[Documented], name: str, text: str) -> Any:
     if leaf is None:
         if text == PRESENT and pattern_of(name) in branches(model):
             return {}
-        return number_of(text) if matrix_at(model, name) else text
+        return number_of(text) if matrix_at(model, name) or pair_at(model, name) else text
     if leaf.dimensions == 1:
         return _listed(leaf, text)
     if leaf.options:
@@ -251,6 +282,8 @@ def _with_lists(model: type[Documented], content: Any, path: str = "") -> Any:
     inner = {name: _with_lists(model, value, f"{path}.{name}".lstrip(".")) for name, value in content.items()}
     if (leaf := leaf_at(model, path)) is not None and leaf.dimensions == MATRIX:
         return _matrix(content)
+    if leaf is not None and leaf.pair and content.keys() <= {"0", "1"}:
+        return [content.get(item, default) for item, default in zip("01", leaf.default or (None, None), strict=True)]
     if inner and all(name.isdecimal() and name.isascii() for name in inner):
         return [inner[name] for name in sorted(inner, key=lambda name: (len(name), name))]
     return inner

@@ -6,6 +6,7 @@ The code sends the request of the case to the service again.
 import json
 import re
 import shlex
+from collections.abc import Collection
 from datetime import UTC, datetime
 from pprint import pformat
 from textwrap import indent
@@ -13,10 +14,12 @@ from typing import Any, NamedTuple
 from unicodedata import category
 from urllib.parse import urlsplit
 
+from app.calculations import card_of
 from app.errors import Unprocessable
 from app.manual import Chapter, chapters
 from app.pages.cases import Asked, SolvedCase
 from app.pages.manual import chapter_of, method_of, symbols_of
+from app.pages.pair_path import WITH_PAIR, assumed_of
 from app.pages.query import REPORT_NAMES, Pairs
 from app.pages.results import flattened, resolved, texts_of
 from app.pages.typesetting import cited
@@ -74,7 +77,8 @@ def context(asked: Asked, case: SolvedCase, host: str) -> dict[str, Any]:
 
     The link to the case is relative if `host` is empty. Raises Unprocessable if a name or note is too long.
     """
-    inputs = _inputs(case, asked.pairs)
+    typical = assumed_of(asked)
+    inputs = _inputs(case, asked.pairs, typical.fields if typical else {})
     views, link = asked.views, "" if asked.too_long else host + asked.root + asked.page
     is_local = not host or urlsplit(host).hostname in THIS_COMPUTER
     return {
@@ -87,8 +91,12 @@ def context(asked: Asked, case: SolvedCase, host: str) -> dict[str, Any]:
         "defaults": _left(inputs),
         "labels": LABELS,
         "short": views.get("extent") == "short",
+        "extent": views.get("extent", ""),
+        "with_pair": WITH_PAIR,
+        "offers_pair": card_of(case.calculation).subject == "pair",
+        "typical": typical,
+        "kept": {name: text for name, text in asked.carried.items() if text and name not in REPORT_NAMES},
         "most": MOST_SHORT,
-        "stage": views.get("rexs_stage", ""),
         "symbols": [symbol for chapter in _chapters_behind(case) for symbol in symbols_of(chapter)],
         "command": for_shell((LOCAL if is_local else host) + asked.root, case),
         "link": link,
@@ -169,8 +177,11 @@ def _given(case: SolvedCase) -> dict[str, Any]:
     return case.request.model_dump(exclude_unset=True, exclude={"detail"})
 
 
-def _inputs(case: SolvedCase, pairs: Pairs) -> list[ReportSection]:
-    """Return the inputs by section. Each input has the value that was used, and the origin of this value."""
+def _inputs(case: SolvedCase, pairs: Pairs, typical: Collection[str] = ()) -> list[ReportSection]:
+    """Return the inputs by section. Each input has the value that was used, and the origin of this value.
+
+    `typical` are the given fields whose values are assumed.
+    """
     typed = {_element.sub("", name) for name, _ in pairs}
     assumed = {assumption.field: assumption.value for assumption in case.response.assumptions}
     used = resolved(case.response) | assumed
@@ -184,7 +195,7 @@ def _inputs(case: SolvedCase, pairs: Pairs) -> list[ReportSection]:
         else:
             origin = "assumed" if path in assumed else "derived" if stated is None else "default"
             text = f"{', '.join(texts_of(value, 6, 6))} {leaf.unit or ''}".rstrip()
-            cell = Cell(text, "given" if path in typed else origin)
+            cell = Cell(text, "assumed" if path in typical else "given" if path in typed else origin)
         *section, name = path.split(".")
         index = int(section.pop()) if section and section[-1].isdecimal() else 0
         title = (

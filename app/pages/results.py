@@ -160,6 +160,13 @@ def parts(response: Documented, tables: dict[str, list[ResultRow]]) -> list[Part
     ]
 
 
+def differing(tables: dict[str, list[ResultRow]]) -> tuple[dict[str, list[ResultRow]], int]:
+    """Return the rows of tables that differ from the variant, and how many rows are alike."""
+    changed = {title: [row for row in rows if row.change != "no change"] for title, rows in tables.items()}
+    alike = sum(map(len, tables.values())) - sum(map(len, changed.values()))
+    return {title: rows for title, rows in changed.items() if rows}, alike
+
+
 def _side_by_side(first: ResultRow, second: ResultRow) -> ResultRow:
     """Return one row with the values of two helices."""
     change = first.change if first.change == second.change else f"{first.change}, {second.change}"

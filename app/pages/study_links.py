@@ -63,12 +63,13 @@ def studies_of_case(
     pairs: Pairs,
     case: Any,
     derived: Mapping[str, Any] = MappingProxyType({}),
-    file: Mapping[str, str | None] = MappingProxyType({}),
+    carried: Mapping[str, str | None] = MappingProxyType({}),
 ) -> list[Starter]:
     """Return links that apply the ready studies of a calculation to a case.
 
     `derived` holds values that the case does not state but implies, for example the power that follows from a given
-    torque. The keys are the paths of these values. `file` holds the name of the REXS file from which the case was read.
+    torque. The keys are the paths of these values. `carried` holds the query fields that go with the case to all its
+    pages.
 
     The range of a varied field depends on the value of the field in the case:
 
@@ -90,5 +91,5 @@ def studies_of_case(
             elif value is None and not getattr(leaf_at(calculation.request, path), "options", ()):
                 break
         else:
-            starters.append(Starter(example.title, "", link(address, pairs, **study, **file)))
+            starters.append(Starter(example.title, "", link(address, pairs, **study, **carried)))
     return starters

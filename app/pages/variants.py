@@ -38,7 +38,7 @@ class VariantRow(NamedTuple):
 
 
 class Variants(NamedTuple):
-    """The table of the variants. Each variant is a column; each input and each result is a row."""
+    """The table of the variants. Each variant is a column; each input and each result that differs is a row."""
 
     columns: list[VariantColumn]
     inputs: list[VariantRow]
@@ -96,17 +96,18 @@ def _column(name: str, asked: Asked, query: str, case: SolvedCase) -> VariantCol
 
 
 def _table(asked: Asked, columns: list[VariantColumn]) -> Variants:
-    """Return the table of the inputs that differ between variants, and of all headline numbers."""
+    """Return the table of the inputs and the headline numbers that differ between variants."""
     filled = [column for column in columns if not column.trouble]
     request, response = asked.calculation.request, asked.calculation.response
     paths = dict.fromkeys(path for column in filled for path in column.inputs)
     differing = [path for path in paths if len({repr(column.inputs.get(path)) for column in filled}) > 1]
     inputs = [row_of(leaf, path) for path in differing if (leaf := leaf_at(request, path))]
     results = [row_of(leaf, leaf.path) for leaf in headlines(response)]
+    found = [VariantRow(row, _texts(row, (column.results for column in columns))) for row in results]
     return Variants(
         columns,
         [VariantRow(row, _texts(row, (column.inputs for column in columns))) for row in inputs],
-        [VariantRow(row, _texts(row, (column.results for column in columns))) for row in results],
+        [row for row in found if len(set(row.texts)) > 1],
     )
 
 

@@ -1,6 +1,9 @@
 """The views of a case: page, answer, figure and report. Workers make the views and return the views as bytes."""
 
+import json
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from http import HTTPStatus
 from typing import Any, Literal
 
 from app.calculations import BY_PATH, Calculation, card_of
@@ -9,18 +12,20 @@ from app.evaluate import written as json_written
 from app.figures import Format, written
 from app.pages import csv
 from app.pages import report as reports
-from app.pages.carried import uses
+from app.pages.carried import offers, use_in, uses
 from app.pages.cases import REFUSED, Asked, FormFault, SolvedCase, faults_of, key_of, solved
 from app.pages.charts import figure_of, figures_of, for_phones, linked, values_of
 from app.pages.form import FormState, form
 from app.pages.manual import chapter_of
-from app.pages.query import Pairs, excluded, link
+from app.pages.pair_path import assumed_of, path_of
+from app.pages.query import Pairs, excluded, link, with_pairs_apart
 from app.pages.results import (
     assumptions,
     beside,
     cards,
     conclusion,
     differences,
+    differing,
     groups,
     parts,
     resolved,
@@ -50,7 +55,7 @@ def page(asked: Asked) -> Shown:
     """Return the page of a case: the form and the result, or the form and its faults."""
     if not asked.pairs and not asked.pressed:
         return form_page(asked)
-    texts = {name: as_typed(text) for name, text in asked.pairs}
+    texts = _texts(asked)
     try:
         case, variant, trouble = _both(asked)
     except REFUSED as error:
@@ -66,7 +71,7 @@ def page(asked: Asked) -> Shown:
         keep=_keep(asked, case, variant),
         **answer,
         charts=[linked(declaration, figure, asked) for declaration, figure in answer["figures"]],
-        ready=studies_of_case(asked.calculation, asked.pairs, response.inputs, resolved(response), asked.file),
+        ready=studies_of_case(asked.calculation, asked.pairs, response.inputs, resolved(response), asked.carried),
         curves=csv.curves(response),
         sent=reports.body_of(case),
         code={
@@ -76,9 +81,45 @@ def page(asked: Asked) -> Shown:
     )
 
 
+def summary(asked: Asked) -> Shown:
+    """Return the verdict and the headline numbers of a case, or why it is refused, as JSON."""
+    try:
+        case = solved(asked.calculation, asked.pairs, asked.kept, "summary")
+    except REFUSED as error:
+        reasons = [fault.message for fault in faults_of(error, asked.calculation)]
+        return Shown(json.dumps({"trouble": "; ".join(dict.fromkeys(reasons))}).encode())
+    response = case.response
+    if response.status == "no_solution":
+        said = {"trouble": response.warnings[0].message}
+    else:
+        tiles = cards(response, resolved(response))
+        found = [{"label": each.label, "text": each.value, "unit": each.unit, "level": each.level} for each in tiles]
+        said = {"trouble": "", "verdict": verdict(response).text, "cards": found}
+    return Shown(json.dumps(said).encode(), keep=_keep(asked, case))
+
+
+def handed_on(asked: Asked, other: str) -> Shown:
+    """Return the address of the page of the calculation `other`, to which the answer of the case hands on its results.
+
+    If the case is refused, return its page, which says why.
+    """
+    try:
+        case = solved(asked.calculation, asked.pairs, asked.kept)
+    except REFUSED:
+        return page(asked)
+    return Shown(
+        use_in(asked, BY_PATH[other], case.response).address.encode(), HTTPStatus.SEE_OTHER, _keep(asked, case)
+    )
+
+
 def form_page(asked: Asked) -> Shown:
     """Return the page with the form as it was filled in, without an answer."""
-    return _page(asked, FormState({name: as_typed(text) for name, text in asked.pairs}))
+    return _page(asked, FormState(_texts(asked)))
+
+
+def _texts(asked: Asked) -> dict[str, str]:
+    """Return the texts of the form's fields."""
+    return {name: as_typed(text) for name, text in with_pairs_apart(asked.calculation.request, asked.pairs)}
 
 
 def _deciding(calculation: Calculation) -> frozenset[str]:
@@ -111,8 +152,18 @@ def figure(asked: Asked, name: str, image_format: Format | Literal["json"]) -> S
     return Shown(content, keep=_keep(asked, case, variant))
 
 
-def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Shown:
-    """Return the report of a case, with a section about a study if there is one."""
+def report(
+    asked: Asked,
+    host: str,
+    study: dict[str, Any] | None = None,
+    steps: Sequence[dict[str, Any]] = (),
+    sheet: Any = None,
+) -> Shown:
+    """Return the report of a case, with what belongs to it.
+
+    `study` is a section about a study, `steps` are other calculations of the same gear pair, and `sheet` is the table
+    of what to grind.
+    """
     try:
         case, variant, trouble = _both(asked)
     except REFUSED:
@@ -124,6 +175,8 @@ def report(asked: Asked, host: str, study: dict[str, Any] | None = None) -> Show
         calculation=asked.calculation,
         **_answered(asked, case, variant, trouble, compute=True),
         study=study,
+        steps=steps,
+        sheet=sheet,
         **reports.context(asked, case, host),
     )
     return Shown(content.encode(), keep=_keep(asked, case, variant))
@@ -150,8 +203,9 @@ def _keep(asked: Asked, case: SolvedCase, variant: SolvedCase | None = None) -> 
 def _page(
     asked: Asked, state: FormState, status: int = 200, keep: dict[str, bytes] | None = None, **answer: Any
 ) -> Shown:
-    calculation = asked.calculation
-    state = replace(state, deciding=_deciding(calculation), endpoint=calculation.path)
+    calculation, typical = asked.calculation, assumed_of(asked)
+    rules = {name: rule.rule for name, rule in typical.fields.items()} if typical else {}
+    state = replace(state, deciding=_deciding(calculation), endpoint=calculation.path, rules=rules)
     context = {"faults": [], "response": None, "compared": False, "cards": (), "trouble": "", **answer}
     content = rendered(
         "calculation.html",
@@ -163,9 +217,12 @@ def _page(
         examples=[(example, example_link(calculation, example)) for example in examples_of(calculation)],
         studies=study_links(calculation),
         subject=card_of(calculation).subject,
-        uses=[] if asked.too_long else uses(asked),
+        uses=[] if asked.too_long else uses(asked, context["response"]),
+        offers=[] if asked.too_long else offers(asked),
         first_figures=FIRST_FIGURES,
         headlines=headlines(calculation.response),
+        path=[] if asked.too_long else path_of(asked),
+        typical=typical,
         **context,
     )
     return Shown(content.encode(), status, keep or {})
@@ -177,7 +234,10 @@ def _answered(
     """Return the template's variables for the answer of a case and for the comparison of the case with the variant."""
     figures, missing = figures_of(case, variant, compute=compute)
     request, response, before = type(case.request), case.response, variant.response if variant else None
-    derived, tables = groups(response.derived) if response.derived else {}, groups(response, before)
+    derived = groups(response.derived) if response.derived else {}
+    tables, alike = groups(response, before), 0
+    if before is not None:
+        tables, alike = differing(tables)
     return {
         "response": response,
         "cards": cards(response, resolved(response), before),
@@ -189,6 +249,7 @@ def _answered(
         "assumed": assumptions(request, response),
         "groups": tables,
         "parts": parts(response, tables),
+        "alike": alike,
         "beside": beside(response) if response.status != "no_solution" else [],
         "derived": [row for rows in derived.values() for row in rows if row.value != NO_VALUE],
         "elsewhere": _elsewhere(asked),

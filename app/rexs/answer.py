@@ -2,7 +2,6 @@
 
 import json
 from collections.abc import Callable, Sequence
-from hashlib import sha256
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -11,9 +10,11 @@ from pydantic import BaseModel
 from app.calculations import BY_PATH
 from app.errors import Unprocessable
 from app.evaluate import evaluate, refuse_endless
-from app.pages.overview import unit_page
+from app.pages.cases import REFUSED, Asked, faults_of, solved
+from app.pages.overview import SCUFFING, TRAIN, endpoint_of, stage_cases, unit_page, with_common
+from app.pages.query import Pairs
 from app.rexs import table
-from app.rexs.document import Document, File, read, with_attributes
+from app.rexs.document import Document, File, packed, read, with_attributes
 from app.rexs.model import Attribute
 from app.rexs.reading import AssumedValue, Fault, MissingValue, Unused
 from app.rexs.unit import gear_unit
@@ -98,9 +99,14 @@ def unit_json(content: bytes, most_bytes: int) -> bytes:
     return json.dumps(unit_of(content, most_bytes), allow_nan=False, ensure_ascii=False).encode()
 
 
-def unit_html(content: bytes, root: str, most_bytes: int, name: str = "") -> bytes:
-    """Return the answer of /v1/rexs as a page. `root` is the prefix of all links; `name` is the name of the file."""
-    return unit_page(root, unit_of(content, most_bytes), name, sha256(content).hexdigest()).encode()
+def unit_html(unit: bytes, root: str, *arguments: Any) -> bytes:
+    """Return the page of a unit from the answer of /v1/rexs; `arguments` as those of `unit_page`."""
+    return unit_page(root, json.loads(unit), *arguments).encode()
+
+
+def cases_of(unit: bytes, common: Pairs) -> list[tuple[list[int], Asked]]:
+    """Return, for every stage, its ids in the file and the case that is calculated, with what all stages share."""
+    return stage_cases(with_common(json.loads(unit), common))
 
 
 def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | None, deadline_s: float) -> File:
@@ -119,15 +125,39 @@ def with_results(content: bytes, most_bytes: int, stage: int, request: bytes | N
     if row is None:
         raise Unprocessable("unknown_stage", f"the file has no stage {stage} that can be calculated", None)
     if request is None:
-        endpoint = "/v1/drive-train" if "/v1/drive-train" in row["requests"] else "/v1/scuffing"
+        endpoint = endpoint_of(row)
         request = json.dumps(row["requests"][endpoint]).encode()
     else:
-        endpoint = "/v1/drive-train" if b'"pinion_shaft"' in request else "/v1/scuffing"
+        endpoint = TRAIN if b'"pinion_shaft"' in request else SCUFFING
     calculation = BY_PATH[endpoint]
     inputs = validated(calculation.request, content_of(request))
     refuse_endless(calculation, inputs, deadline_s)
     answer = evaluate(calculation, inputs).model_dump(mode="json", exclude_unset=True)
-    return with_answer(document, helices, endpoint, answer)
+    return packed(with_answer(document, helices, endpoint, answer), most_bytes)
+
+
+def with_all_results(content: bytes, most_bytes: int, cases: Sequence[tuple[Sequence[int], Asked]]) -> File:
+    """Return the file with the results of all stages, whose answers are kept with the cases.
+
+    A stage that cannot be calculated gets the reason as its status. Raises Unprocessable if no stage can be calculated.
+    """
+    document, done, reasons = read(content, most_bytes), False, list[str]()
+    for stages, asked in cases:
+        try:
+            case = solved(asked.calculation, asked.pairs, asked.kept, "summary")
+        except REFUSED as error:
+            reasons.append(faults_of(error, asked.calculation)[0].message)
+            refused = Attribute(f"{table.CUSTOM}status", "none", f"refused: {reasons[-1]}")
+            for stage in stages:
+                document = document._replace(file=with_attributes(document.file, stage, [refused]))
+            continue
+        answer = case.response.model_dump(mode="json", exclude_unset=True)
+        document = document._replace(file=with_answer(document, stages, asked.calculation.path, answer))
+        done = True
+    if not done:
+        reason = f": {reasons[0]}" if reasons else ""
+        raise Unprocessable("nothing_calculated", f"no stage of the file can be calculated{reason}", None)
+    return packed(document.file, most_bytes)
 
 
 def with_answer(document: Document, stages: Sequence[int], endpoint: str, answer: dict[str, Any]) -> File:

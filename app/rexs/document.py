@@ -1,20 +1,27 @@
 """Reading of a REXS file into a `RexsUnit`, and writing of the file with new attributes.
 
+What is written is the file that was read, with lines added: declaration, encoding, line ends and comments of XML stay
+byte for byte, and JSON keeps its indentation and line ends.
+
 A file is XML, JSON, or a zip archive with one XML or JSON file. The file may come from anybody. Therefore the options
 of lxml forbid entities, external files and deep nesting. The number of tags and attributes is checked before the parser
 turns the file into objects.
 """
 
 import base64
+import codecs
 import io
 import json
 import re
 import zipfile
 import zlib
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from math import isfinite
 from pathlib import PurePosixPath
 from typing import Any, NamedTuple
+from xml.parsers import expat
+from xml.sax.saxutils import escape, quoteattr
 
 import numpy as np
 from lxml import etree
@@ -37,12 +44,27 @@ def not_rexs(message: str) -> Unprocessable:
     return Unprocessable("not_rexs", message, None)
 
 
+MARKS = {
+    codecs.BOM_UTF8: ("utf-8", 3),
+    codecs.BOM_UTF16_LE: ("utf-16-le", 2),
+    codecs.BOM_UTF16_BE: ("utf-16-be", 2),
+    "<?".encode("utf-16-le"): ("utf-16-le", 0),
+    "<?".encode("utf-16-be"): ("utf-16-be", 0),
+}
+"""Encodings of XML by its first bytes, and how many of these are not text."""
+_DECLARATION = re.compile(r"\s*<\?xml\b[^>]*?\?>")
+_ENCODING = re.compile(rb"""\s*<\?xml\b[^>]*?\bencoding\s*=\s*["']([\w.:-]{1,40})["']""")
+_TAG = re.compile(rb"""<(?:[^'">]|"[^"]*"|'[^']*')*>""")
+_INDENT = re.compile(r"\s*\{\r?\n([ \t]*)")
+
+
 class File(NamedTuple):
-    """A file in XML or JSON."""
+    """A file in XML or JSON; `archive` is the zip archive from which it was unpacked."""
 
     content: bytes
     media_type: str
     suffix: str
+    archive: bytes | None = None
 
 
 class Document(NamedTuple):
@@ -57,41 +79,72 @@ def read(content: bytes, most_bytes: int) -> Document:
 
     Raises Unprocessable if the file cannot be read, or if the unpacked file has more than `most_bytes` bytes.
     """
-    if content.startswith(b"PK"):
-        content = _unpacked(content, most_bytes)
+    archive = content if content.startswith(b"PK") else None
+    if archive is not None:
+        content = _unpacked(archive, most_bytes)
     if len(content) > most_bytes:
         raise not_rexs(f"the model has more than {most_bytes // 1_000_000} MB")
     start = content.lstrip(b"\xef\xbb\xbf \t\r\n")[:1]
     if not start:
         raise not_rexs("the file is empty")
     if start == b"{":
-        return Document(File(content, "application/json", ".rexsj"), _model_of_json(content))
-    return Document(File(content, "application/xml", ".rexs"), _model_of_xml(content))
+        return Document(File(content, "application/json", ".rexsj", archive), _model_of_json(content))
+    return Document(File(content, "application/xml", ".rexs", archive), _model_of_xml(content))
 
 
-def with_attributes(file: File, component: int, attributes: Iterable[Attribute]) -> File:
+def with_attributes(file: File, component: int, attributes: Sequence[Attribute]) -> File:
     """File with additional attributes of a component. A new attribute replaces an attribute of the same name."""
     write = _json_with if file.suffix == ".rexsj" else _xml_with
     return file._replace(content=write(file.content, component, attributes))
 
 
-def _unpacked(content: bytes, most_bytes: int) -> bytes:
-    """Unpack the model file in a zip archive, and return at most the first `most_bytes` + 1 bytes of the file."""
+def packed(file: File, most_bytes: int) -> File:
+    """Return a file that came from an archive as that archive, with its other entries; any other file unchanged.
+
+    Raises Unprocessable if the other entries have more than `most_bytes` bytes, or cannot be read.
+    """
+    if file.archive is None:
+        return file
+    buffer, left = io.BytesIO(), most_bytes
+    with _opened(file.archive) as archive, zipfile.ZipFile(buffer, "w") as copy:
+        model = _model_entry(archive)
+        for entry in archive.infolist():
+            content = file.content
+            if entry is not model:
+                content = archive.open(entry).read(left + 1)
+                left -= len(content)
+            if left < 0:
+                raise not_rexs(f"the archive has more than {most_bytes // 1_000_000} MB beside the model")
+            copy.writestr(entry, content)
+    return File(buffer.getvalue(), "application/zip", ".rexsz")
+
+
+@contextmanager
+def _opened(content: bytes) -> Iterator[zipfile.ZipFile]:
+    """Open an archive; raise Unprocessable if it cannot be read."""
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
-            models = [entry for entry in archive.infolist() if _is_model(entry.filename)]
-            if len(models) != 1:
-                names = ", ".join(PurePosixPath(entry.filename).name[:40] for entry in models[:5])
-                listed = f": {names}" if names else ""
-                raise not_rexs(
-                    f"the archive must hold exactly one model ({MODELS}), but it holds {len(models)}{listed}"
-                )
-            if models[0].compress_type not in PACKINGS:
-                raise not_rexs("the compression of the archive is not supported; use deflate, the usual method")
-            with archive.open(models[0]) as packed:
-                return packed.read(most_bytes + 1)
+            yield archive
     except (zipfile.BadZipFile, zlib.error, NotImplementedError, RuntimeError, OSError, EOFError, ValueError) as error:
         raise not_rexs("the archive is damaged, encrypted or compressed by a method that is not supported") from error
+
+
+def _model_entry(archive: zipfile.ZipFile) -> zipfile.ZipInfo:
+    """Return the only model in an archive."""
+    models = [entry for entry in archive.infolist() if _is_model(entry.filename)]
+    if len(models) != 1:
+        names = ", ".join(PurePosixPath(entry.filename).name[:40] for entry in models[:5])
+        listed = f": {names}" if names else ""
+        raise not_rexs(f"the archive must hold exactly one model ({MODELS}), but it holds {len(models)}{listed}")
+    if models[0].compress_type not in PACKINGS:
+        raise not_rexs("the compression of the archive is not supported; use deflate, the usual method")
+    return models[0]
+
+
+def _unpacked(content: bytes, most_bytes: int) -> bytes:
+    """Unpack the model file in a zip archive, and return at most the first `most_bytes` + 1 bytes of the file."""
+    with _opened(content) as archive, archive.open(_model_entry(archive)) as model:
+        return model.read(most_bytes + 1)
 
 
 def _is_model(name: str) -> bool:
@@ -214,18 +267,102 @@ def _xml_id(element: Any, attribute: str = "id") -> int:
     return int(text)
 
 
-def _xml_with(content: bytes, component: int, attributes: Iterable[Attribute]) -> bytes:
-    root = etree.fromstring(content, etree.XMLParser(**SAFE))
-    candidates = (element for element in root.iter("{*}component") if _is_of_model(element))
-    element = next(candidate for candidate in candidates if _xml_id(candidate) == component)
-    present = {attribute.get("id"): attribute for attribute in _children(element, "attribute")}
-    tag = etree.QName(etree.QName(element).namespace, "attribute")
-    for attribute in attributes:
-        if (old := present.get(attribute.name)) is not None:
-            element.remove(old)
-        new = etree.SubElement(element, tag, id=attribute.name, unit=attribute.unit)
-        new.text = str(attribute.value)
-    return bytes(etree.tostring(root.getroottree(), xml_declaration=True, encoding="UTF-8"))
+def _encoding_of(content: bytes) -> tuple[str, int]:
+    """Return the encoding of an XML file, and the number of bytes before its text."""
+    found = next((known for mark, known in MARKS.items() if content.startswith(mark)), None)
+    if found is not None:
+        return found
+    stated = _ENCODING.match(content)
+    return (stated[1].decode() if stated else "utf-8"), 0
+
+
+class _Place:
+    """Where a component stands in the UTF-8 bytes of an XML file: its tag, and the attributes directly in it."""
+
+    def __init__(self, raw: bytes, component: int) -> None:
+        self.raw, self.component = raw, component
+        self.tag, self.start, self.end = "", -1, -1  # end: of its content, or of its tag if it is empty
+        self.attributes: list[tuple[str, int, int]] = []  # name, start and end
+        self._open: list[tuple[str, str, int]] = []  # tag, id and start of the elements around
+        self._parser = expat.ParserCreate("utf-8")
+        self._parser.StartElementHandler, self._parser.EndElementHandler = self._begin, self._finish
+        self._parser.Parse(raw, True)
+
+    def _begin(self, tag: str, attributes: dict[str, str]) -> None:
+        around = [_local(each[0]) for each in self._open[-1:]]
+        self._open.append((tag, attributes.get("id", "").strip(), self._parser.CurrentByteIndex))
+        is_of_model = _local(tag) == "component" and around == ["components"]  # not of a load case
+        if is_of_model and not self.tag and int(self._open[-1][1]) == self.component:
+            self.tag, self.start = tag, self._open[-1][2]
+            self._depth = len(self._open)
+
+    def _finish(self, tag: str) -> None:
+        _, name, start = self._open.pop()
+        at = self._parser.CurrentByteIndex  # of the end tag; of an empty element, behind it
+        if not self.tag or self.end >= 0:
+            return
+        if len(self._open) == self._depth - 1:
+            self.end = at
+        elif len(self._open) == self._depth and _local(tag) == "attribute":
+            end = at if self._is_empty(start, at) else self.raw.index(b">", at) + 1
+            self.attributes.append((name, start, end))
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether the component is an empty element, such as `<component id="1"/>`."""
+        return self._is_empty(self.start, self.end)
+
+    def _is_empty(self, start: int, end: int) -> bool:
+        tag = _TAG.match(self.raw, start)
+        return tag is not None and tag.end() == end and tag[0].endswith(b"/>")
+
+
+def _local(tag: str) -> str:
+    """Return a name without its prefix."""
+    return tag.rpartition(":")[2]
+
+
+def _blank_before(raw: bytes, place: int) -> bytes:
+    """Return the blanks and line ends that stand before a place."""
+    return raw[len(raw[:place].rstrip(b" \t\r\n")) : place]
+
+
+def _xml_with(content: bytes, component: int, attributes: Sequence[Attribute]) -> bytes:
+    """Add attributes to a component; every other byte of the file stays."""
+    encoding, skipped = _encoding_of(content)
+    try:
+        text = content[skipped:].decode(encoding)
+        declaration = _DECLARATION.match(text)
+        raw = text.encode()
+        hidden = len(declaration[0].encode()) if declaration else 0
+        place = _Place(b" " * hidden + raw[hidden:], component)
+    except (expat.ExpatError, LookupError, UnicodeError) as error:
+        raise not_rexs("the file cannot be written in its encoding; save it as UTF-8") from error
+    prefix = place.tag.removesuffix("component")
+    names = {attribute.name for attribute in attributes}
+    around = _blank_before(raw, place.start)
+    indent = _blank_before(raw, place.attributes[0][1]) if place.attributes else around + (b" " if around else b"")
+    added = b"".join(indent + _xml_attribute(prefix, attribute).encode() for attribute in attributes)
+    edits = [
+        (start - len(_blank_before(raw, start)), end, b"") for name, start, end in place.attributes if name in names
+    ]
+    if place.is_empty:
+        slash = raw.rindex(b"/", place.start, place.end)
+        edits.append((slash, place.end, b">" + added + around + f"</{place.tag}>".encode()))
+    elif place.attributes:
+        last = place.attributes[-1][2]
+        edits.append((last, last, added))
+    else:
+        at = place.end - len(_blank_before(raw, place.end))
+        edits.append((at, at, added + (b"" if at < place.end else around)))
+    for start, end, new in sorted(edits, reverse=True):
+        raw = raw[:start] + new + raw[end:]
+    return content[:skipped] + raw.decode().encode(encoding, "xmlcharrefreplace")
+
+
+def _xml_attribute(prefix: str, attribute: Attribute) -> str:
+    name, unit, value = quoteattr(attribute.name), quoteattr(attribute.unit), escape(str(attribute.value))
+    return f"<{prefix}attribute id={name} unit={unit}>{value}</{prefix}attribute>"
 
 
 def _model_of_json(content: bytes) -> RexsUnit:
@@ -301,11 +438,21 @@ def _json_id(item: dict[str, Any]) -> int:
 
 
 def _json_with(content: bytes, component: int, attributes: Iterable[Attribute]) -> bytes:
-    document = json.loads(content)
+    """Add attributes to a component; encoding, indentation and line ends of the file stay."""
+    encoding = json.detect_encoding(content)
+    text = content.decode(encoding)
+    document = json.loads(text)
     item = next(item for item in document["model"]["components"] if item["id"] == component)
     listed = item.setdefault("attributes", [])
     for attribute in attributes:
         listed[:] = [entry for entry in listed if entry.get("id") != attribute.name]
         kind = "floating_point" if isinstance(attribute.value, float) else "string"
         listed.append({"id": attribute.name, "unit": attribute.unit, kind: attribute.value})
-    return json.dumps(document, ensure_ascii=False, indent=1).encode()
+    indent = _INDENT.match(text)
+    tight = re.match(r'\s*\{\s*"model":\S', text) is not None
+    separators = ("," if indent or tight else ", ", ":" if tight else ": ")
+    written = json.dumps(
+        document, ensure_ascii=text.isascii(), indent=indent[1] if indent else None, separators=separators
+    )
+    written = written.replace("\n", "\r\n" if "\r\n" in text else "\n") + text[len(text.rstrip()) :]
+    return written.encode(encoding)

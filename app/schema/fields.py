@@ -13,6 +13,7 @@ from itertools import product
 from types import NoneType
 from typing import Any, Literal, NamedTuple, get_args, get_origin
 
+from annotated_types import MaxLen, MinLen
 from pydantic import BaseModel
 
 from app.schema.model import Documented, Member, members
@@ -35,7 +36,7 @@ class Leaf:
     therefore added to the `title` of each of these fields. `dimensions` is 0 for a scalar, 1 for a list and 2 for a
     matrix. `exclusive` and `alternatives` hold the full paths of the fields that stand in a group with this one
     (`Documented`). `axes` holds the full paths of the fields that are the axes, one path per dimension. `axes` is empty
-    if the field has no axes.
+    if the field has no axes. `pair` says whether a list holds exactly two numbers, such as the ends of a range.
     """
 
     path: str
@@ -54,6 +55,7 @@ class Leaf:
     alternatives: tuple[str, ...]
     detail: Detail
     axes: tuple[str, ...]
+    pair: bool = False
 
     @property
     def is_scalar(self) -> bool:
@@ -200,6 +202,13 @@ def matrix_at(model: type[Documented], path: str) -> Leaf | None:
     return leaf_at(model, path.rpartition(".")[0].rpartition(".")[0])
 
 
+def pair_at(model: type[Documented], path: str) -> Leaf | None:
+    """Return the leaf of the pair of numbers of which one is at a dotted path, or None if there is no such pair."""
+    whole, _, item = path.rpartition(".")
+    leaf = leaf_at(model, whole) if item.isdecimal() else None
+    return leaf if leaf and leaf.pair else None
+
+
 def value_at(content: Any, path: str) -> Any:
     """Return the value at a dotted path of a request or answer; None if a part of the path does not exist."""
     for part in path.split("."):
@@ -316,6 +325,8 @@ def _leaf(place: Place, title: str) -> Leaf:
         alternatives=fellows("alternatives"),
         detail=next(details, "summary"),
         axes=tuple(_absolute(axis, prefix) for axis in meaning.axes) if isinstance(meaning, Output) else (),
+        pair=member.dimensions == 1
+        and {MinLen(2), MaxLen(2)} <= {bound for bound in info.metadata if isinstance(bound, MinLen | MaxLen)},
     )
 
 

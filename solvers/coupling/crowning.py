@@ -19,6 +19,7 @@ from scipy.optimize import brentq, minimize_scalar
 from solvers.arrays import FloatArray, frozen
 from solvers.coupling.inputs import (
     MAX_MISALIGNMENT,
+    Coupling,
     CouplingInputs,
     RecommendationInputs,
     check_inputs,
@@ -45,6 +46,10 @@ class RecommendedPoint:
         "axial thrust", "F_ax", unit="n", text="axial thrust at the axial velocity given", equation="C19"
     )
     sliding_velocity: float = quantity("largest sliding velocity", "v_G,max", unit="m_per_s", equation="C2")
+    load_concentration: float = quantity(
+        "load concentration", "F_max/F_m", text="largest over mean tooth force", equation="C7"
+    )
+    loaded_teeth: int = quantity("loaded teeth", "z_L", text="teeth that carry", equation="C7")
 
 
 @record
@@ -67,12 +72,35 @@ class Recommendation:
 
     A constraint must be met over the whole range of misalignment. If no ratio meets every constraint, `feasible`
     is False, and `failed_constraint` names the constraint that excludes all ratios: `contact_overlap`, `edge_contact`,
-    `hertz_pressure`, `contact_width` or `sliding_velocity`. The crowning ratio, its load capacity and the results at
-    both ends of the range are then None.
+    `hertz_pressure`, `contact_width` or `sliding_velocity`. The crowning, its load capacity and the results at both
+    ends of the range are then None.
     """
 
     feasible: bool = quantity("feasible crowning", text="whether any crowning ratio meets every constraint")
     crowning_ratio: float | None = quantity("best crowning ratio", "ε")
+    crowning_radius: float | None = quantity(
+        "radius of the crowning", "r_b", PAHL, unit="mm", text="radius of the cutter centre's path", equation="C1"
+    )
+    crowning_drop: float | None = quantity(
+        "drop of the crowning",
+        "c_b",
+        unit="um",
+        text="of the flank at both ends of the face against its middle, in the tangential plane",
+        equation="C33",
+    )
+    unloading_misalignment: float | None = quantity(
+        "unloading misalignment",
+        "δ_L",
+        unit="deg",
+        text="misalignment beyond which some tooth is free, with this crowning",
+        equation="C10",
+    )
+    unloading_margin: float | None = quantity(
+        "distance to unloading",
+        "δ_L/δ_max",
+        text="unloading misalignment over the largest of the range; below 1 some tooth is free there",
+        equation="C10",
+    )
     min_load_capacity_coefficient: float | None = quantity(
         "least load capacity coefficient", "Tr_min", text="smallest over the range"
     )
@@ -258,9 +286,14 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
     ratio = _best_ratio(state, low, high)
     at_min = solve(at_misalignment(inputs, ratio, inputs.min_misalignment))
     at_max = solve(at_misalignment(inputs, ratio, inputs.max_misalignment))
+    unloading = at_max.load_distribution.unloading_misalignment
     return Recommendation(
         feasible=True,
         crowning_ratio=ratio,
+        crowning_radius=at_max.geometry.crowning_radius,
+        crowning_drop=crowning_drop(inputs.design.coupling, at_max.geometry),
+        unloading_misalignment=unloading,
+        unloading_margin=unloading / inputs.max_misalignment,
         min_load_capacity_coefficient=state(ratio).load_capacity_coefficient,
         failed_constraint=None,
         at_min=_point(at_min),
@@ -269,6 +302,11 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
         derived=Derived.of(inputs.design),
         warnings=_merged((*sliding, *at_min.warnings, *at_max.warnings)),
     )
+
+
+def crowning_drop(coupling: Coupling, geometry: Geometry) -> float:
+    """Drop of the flank at the ends of the face against its middle: c_b = (b/2)^2/(2 R_t) [m] (Eq. C33)."""
+    return (coupling.face_width / 2.0) ** 2 / (2.0 * geometry.tangential_flank_radius)
 
 
 def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float) -> float:
@@ -298,14 +336,18 @@ def _merged(notices: tuple[Notice, ...]) -> tuple[Notice, ...]:
 
 def _point(result: CouplingResult) -> RecommendedPoint:
     overlap, capacity = result.lubrication.contact_overlap, result.lubrication.load_capacity_coefficient
+    concentration = result.load_distribution.load_concentration
     assert overlap is not None
     assert capacity is not None
+    assert concentration is not None
     return RecommendedPoint(
         contact_overlap=overlap,
         load_capacity_coefficient=capacity,
         friction_coefficient=result.lubrication.friction_coefficient,
         axial_thrust=result.axial_thrust.force,
         sliding_velocity=result.kinematics.max_sliding_velocity,
+        load_concentration=concentration,
+        loaded_teeth=result.load_distribution.loaded_teeth,
     )
 
 
@@ -326,6 +368,10 @@ def _infeasible(failed: str, scan: CrowningScan, used: Derived, warnings: tuple[
     return Recommendation(
         feasible=False,
         crowning_ratio=None,
+        crowning_radius=None,
+        crowning_drop=None,
+        unloading_misalignment=None,
+        unloading_margin=None,
         min_load_capacity_coefficient=None,
         failed_constraint=failed,
         at_min=None,

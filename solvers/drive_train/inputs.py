@@ -63,6 +63,7 @@ class RadialBearing:
         le=5000,
         tolerance=2,
         text="[X, Y] of the bore against the datum axis",
+        index="X, Y",
     )
 
 
@@ -324,6 +325,7 @@ class UnitCoupling:
         le=5000,
         tolerance=100,
         text="[X, Y] against the unit's datum axis; running, or cold where an alignment is given",
+        index="X, Y",
     )
     slope: Vector2 = quantity(
         "slope of the machine's axis",
@@ -334,6 +336,7 @@ class UnitCoupling:
         le=20,
         tolerance=0.2,
         text="[dX/dZ, dY/dZ] against the unit's datum axis",
+        index="dX/dZ, dY/dZ",
     )
     thrust_fraction: float = quantity(
         "share of the friction that acts axially",

@@ -7,9 +7,11 @@ import pytest
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation, card_of
 from app.examples import examples
+from app.figures.wording import number
 from app.pages.carried import Use, uses
 from app.pages.cases import Asked, solved
 from app.pages.query import pairs_of
+from app.pages.results import cards, resolved
 from app.pages.templating import page_path
 from app.schema.fields import leaf_at
 from tests.support.pages import asked, asked_by, html_of
@@ -97,6 +99,34 @@ def test_a_coupling_goes_along_too() -> None:
     assert "misalignment" in missing
     html = html_of(here)
     assert "Use this coupling in" in html
+
+
+def test_the_found_crowning_goes_along() -> None:
+    here = asked("starter-coupling-crowning")
+    answer = solved(here.calculation, here.pairs, None).response
+    use = next(each for each in uses(here, answer) if each.title == BY_PATH["/v1/coupling"].title)
+    assert use.missing == []
+    assert use.found == ["crowning ratio", "misalignment"]
+    there = asked_by(use.address)
+    assert float(dict(there.pairs)["coupling.crowning_ratio"]) == pytest.approx(answer.crowning_ratio, rel=1e-5)
+    assert dict(there.pairs)["operation.misalignment_deg"] == "0.09"
+    html = html_of(here)
+    assert "with the crowning ratio and the misalignment found here" in html
+    assert dict(to(there, "/v1/coupling/recommendation").pairs) == dict(here.pairs)
+    coupling = solved(there.calculation, there.pairs, None).response
+    assert coupling.geometry.crowning_radius_mm == pytest.approx(answer.crowning_radius_mm, rel=1e-5)
+
+
+def test_the_main_result_of_the_crowning_is_radius_and_drop() -> None:
+    here = asked("starter-coupling-crowning")
+    response = solved(here.calculation, here.pairs, None).response
+    html = html_of(here)
+    said = html.partition('class="conclusion">')[2].partition("<")[0]
+    assert said.startswith(f"Crown with radius {number(response.crowning_radius_mm, 'mm')}: the flanks drop ")
+    first, second, third, fourth, *_ = cards(response, resolved(response))
+    assert [each.path for each in (first, second, third, fourth)] == [
+        *("crowning_radius_mm", "crowning_drop_um", "at_max.load_concentration", "unloading_margin")
+    ]
 
 
 def test_a_field_of_its_own_wins_over_what_was_carried() -> None:

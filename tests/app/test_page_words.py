@@ -21,7 +21,7 @@ from app.pages.query import WRITTEN, from_form, link, pairs_of
 from app.pages.results import cards, conclusion, verdict, verdicts
 from app.pages.studies.sensitivity import SensitivityPage
 from app.pages.study_links import studies_of_case
-from app.pages.templating import examples_of, page_path
+from app.pages.templating import ASSETS, by_model, examples_of, page_path
 from app.pages.typesetting import together
 from tests.support.pages import asked, asked_by, checked, html_of, lines_of, whole
 from tests.support.requests import changed
@@ -233,6 +233,18 @@ def test_the_page_of_a_gear_unit_has_no_name_of_the_interface() -> None:
     assert "normal backlash: needed" in text
     assert "profile shift" in text
     assert not WORDS.findall(text)
+
+
+def test_the_pictures_of_the_start_page_are_stored_and_there_at_once() -> None:
+    page = start_page.__wrapped__("")
+    shown = re.findall(r'(?:src|srcset)="/static/(start-[a-z-]+\.svg)\?', page)
+    assert len(shown) == 2 * page.count("<picture>") == 2 * len(by_model())
+    assert "loading=" not in page
+    for name in shown:
+        assert ASSETS[name].rstrip().endswith(b"</svg>")
+        assert len(ASSETS[name]) < 300_000
+    for address in ("/pair", "/coupling/recommendation", "#rexs-file"):
+        assert f'href="{address}"' in page.partition('class="begin"')[2].partition("</p>")[0]
 
 
 def test_a_model_without_a_start_figure_stands_on_the_start_page(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -277,12 +277,12 @@ def test_a_link_is_as_strict_as_it_was(client: httpx.Client) -> None:
 
 def test_two_values_may_have_decimal_commas(client: httpx.Client) -> None:
     name = "operation.misalignment_range_deg"
-    answer = sent(client, CROWNING, **{name: "0,02 0,06"})
+    answer = sent(client, CROWNING, **{f"{name}.0": "0,02", f"{name}.1": "0,06"})
     assert f"{name}=0.02,0.06" in str(answer.url)
     assert answer.status_code == 200
-    doubtful = sent(client, CROWNING, **{name: "0,400"})
+    doubtful = sent(client, CROWNING, **{"coupling.pitch_errors_um": "0,400"})
     assert doubtful.status_code == 422
-    assert "one number or several" in fault_at(doubtful.text, name)
+    assert "one number or several" in fault_at(doubtful.text, "coupling.pitch_errors_um")
 
 
 def test_only_what_is_refused_is_asked_back() -> None:

@@ -5,6 +5,7 @@ from html import unescape
 
 from app.calculations import BY_PATH
 from app.examples import examples
+from app.pages import views
 from app.pages.cases import Asked, solved
 from app.pages.form import FormSection, FormState, form
 from app.pages.query import link, pairs_of
@@ -37,14 +38,16 @@ def test_three_variants_stand_in_a_small_table() -> None:
     assert heads == ["quantity", "symbol", "variant A", "variant B", "this case", "unit"]
     angle = next(row for row in rows if row[0] == "misalignment")
     assert angle[2:] == ["0.1", "0.2", "0.05", "°"]
-    title = leaf_at(BY_PATH["/v1/coupling"].response, "axial_thrust.design_force_n").title
-    thrust = next(row for row in rows if row[0] == title)
-    known = [
-        solved(BY_PATH["/v1/coupling"], asked_by(f"/coupling?{each}").pairs, None).response.axial_thrust.design_force_n
-        for each in (query(0.1), query(0.2), here.query)
-    ]
-    assert thrust[2:5] == [shown(value, 4) for value in known]
-    assert not [row for row in rows if row[0] == "torque"], "alike in all"
+    response = BY_PATH["/v1/coupling"].response
+    sliding, thrust = (
+        leaf_at(response, path).title
+        for path in ("kinematics.max_sliding_velocity_m_per_s", "axial_thrust.design_force_n")
+    )
+    row = next(row for row in rows if row[0] == sliding)
+    cases = [asked_by(f"/coupling?{each}").pairs for each in (query(0.1), query(0.2), here.query)]
+    known = [solved(BY_PATH["/v1/coupling"], case, None).response.kinematics for case in cases]
+    assert row[2:5] == [shown(each.max_sliding_velocity_m_per_s, 4) for each in known]
+    assert not [row for row in rows if row[0] in {"torque", thrust}], "alike in all"
 
 
 def test_keeping_a_variant_adds_it() -> None:
@@ -80,3 +83,27 @@ def test_the_section_with_the_limit_of_the_verdict_is_open_and_near_the_top() ->
         each for each in temperatures.blocks if isinstance(each, FormSection) and each.path.endswith("scuffing_test")
     ]
     assert test.open, "the FZG stage is in sight"
+
+
+def test_a_comparison_shows_only_what_differs() -> None:
+    base = asked(COUPLING)
+    html = unescape(html_of(Asked(base.path, base.pairs, {"ref": query(0.1)})))
+    table = html.partition('aria-label="All results"')[2].partition("</table>")[0]
+    assert "no change" not in table
+    assert "thrust limit of coaxial shafts" not in table, "alike in both"
+    assert "largest contact travel" in table
+    (alike,) = map(int, re.findall(r"(\d+) further results are alike in both", html))
+    alone = html_of(base).partition('aria-label="All results"')[2].partition("</table>")[0]
+    rows = [text.count('data-path="') for text in (alone, table)]
+    assert rows[0] == rows[1] + alike
+
+
+def test_every_variant_is_in_the_report() -> None:
+    base = asked(COUPLING)
+    also = SEPARATOR.join((query(0.2), query(0.3)))
+    here = Asked(base.path, base.pairs, {"ref": query(0.1), "also": also})
+    report = unescape(views.report(asked_by(here.report.replace("/report?", "?")), "").content.decode())
+    table = report.partition("<h2>All variants</h2>")[2].partition("</table>")[0]
+    row = next(row for row in table.split("</tr>") if "misalignment" in row)
+    assert re.findall(r'<td class="right">([^<]*)</td>', row) == ["0.1", "0.2", "0.3", "0.05"]
+    assert f'name="also" value="{also}"' in report, "the names of the report are added to the same variants"

@@ -12,17 +12,21 @@ import re
 from collections.abc import Iterator
 from importlib.resources import as_file
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
 from app.calculations import CALCULATIONS
 from app.evaluate import figure_of
 from app.examples import examples
+from app.figures.data import ThemeName
 from app.main import app
 from app.manual import NAMES, chapters, file_of
 from app.manual.equations import anchor
+from app.models.drive_train.typical import RULES
 from app.pages.cases import Asked
 from app.pages.manual import shown_studies
+from app.pages.overview import picture_file, start_figures
 from app.pages.studies import PAGES
 from app.pages.studies.page import checked, file
 from app.settings import Settings
@@ -33,6 +37,7 @@ from tests.manual.pictures import figures_of, studies_of
 from tests.support.pools import InlinePool
 
 FOLDER = Path(__file__).parents[2] / "app" / "manual"
+STATIC = FOLDER.parent / "pages" / "static"
 BLOCK = re.compile(r"<!-- generated: ([\w -]+) -->\n(.*?)<!-- end -->", re.DOTALL)
 NUMBERED = re.compile(
     r"(?:^<a id=\"eq-[\w.-]+\"></a>\n\n)?(^\$\$\n(?:(?!\$\$).)*?\\tag\{([^}]+)\}\n\$\$)", re.MULTILINE | re.DOTALL
@@ -124,7 +129,13 @@ def _said(operation: dict[str, str]) -> str:
 def generated(name: str) -> str:
     """Return the table that belongs in the block with this name."""
     kind, _, model = name.partition(" ")
-    return {"comparison": lambda: comparison(model), "settings": settings_table, "endpoints": endpoint_table}[kind]()
+    tables = {"comparison": lambda: comparison(model), "settings": settings_table, "endpoints": endpoint_table}
+    return (tables | {"rules": rules_table})[kind]()
+
+
+def rules_table() -> str:
+    """Return the table of the rules of typical shafts and bearings."""
+    return table(("what", "rule", "source"), (tuple(rule) for rule in RULES.values()))
 
 
 def blocks() -> list[tuple[str, str, str]]:
@@ -137,7 +148,9 @@ def test_a_table_is_as_the_code_makes_it(name: str, content: str) -> None:
 
 
 def test_every_comparison_stands_in_the_manual() -> None:
-    assert {f"comparison {model}" for model in STATEMENTS} | {"settings", "endpoints"} == {each[1] for each in blocks()}
+    assert {f"comparison {model}" for model in STATEMENTS} | {"settings", "endpoints", "rules"} == {
+        each[1] for each in blocks()
+    }
 
 
 def anchored(text: str) -> str:
@@ -203,7 +216,16 @@ def renew_figures() -> None:
         (folder / f"{name}.{shown}.png").write_bytes(figure_of(shown, "png", "light", calculation.path, request))
 
 
+def renew_start_page() -> None:
+    for model, (calculation, example, name) in start_figures().items():
+        request = calculation.request.model_validate(example.request)
+        for theme in get_args(ThemeName):
+            content = figure_of(name, "svg", theme, calculation.path, request)
+            (STATIC / picture_file(model, theme)).write_bytes(content)
+
+
 if __name__ == "__main__":
+    renew_start_page()
     renew_chapters()
     renew_figures()
     renew_studies()

@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from app.errors import Unprocessable
 from app.pages.carried import uses
 from app.rexs.answer import unit_html, unit_json, with_answer
-from app.rexs.document import read, with_attributes
+from app.rexs.document import packed, read, with_attributes
 from app.rexs.model import Attribute
 from app.rexs.unit import gear_unit
 from tests.rexs.units import Unit, three_stages, turbo_unit
@@ -346,7 +346,7 @@ def test_a_damaged_file_is_read_or_refused_wherever_one_is_taken(data: st.DataOb
         found = json.loads(unit_json(content, MOST_BYTES), parse_constant=pytest.fail)
     except Unprocessable:
         return
-    assert unit_html(content, "", MOST_BYTES)
+    assert unit_html(unit_json(content, MOST_BYTES), "")
     for stage in found["stages"]:
         assert read(with_answer(document, [stage["id"]], "/v1/scuffing", ANSWER).content, MOST_BYTES)
 
@@ -354,14 +354,14 @@ def test_a_damaged_file_is_read_or_refused_wherever_one_is_taken(data: st.DataOb
 def test_links_of_a_unit_carry_the_name_of_the_file_to_every_report() -> None:
     content = turbo_unit().xml()
     name, hashed = "mill 7.rexs", sha256(content).hexdigest()
-    html = unescape(unit_html(content, "", MOST_BYTES, name).decode())
+    html = unescape(unit_html(unit_json(content, MOST_BYTES), "", name, hashed).decode())
     assert f"File: {name}." in html
     links = re.findall(r'href="(/[a-z/-]+\?[^"]+)"', html)
     assert len(links) > 3
     for address in links:
         case = asked_by(address)
         addresses = [case.report, case.study("vary"), *(use.address for use in uses(case))]
-        for carried in (asked_by(each).file for each in addresses):
+        for carried in (asked_by(each).carried for each in addresses):
             assert (carried["rexs_file"], carried["rexs_sha256"]) == (name, hashed)
 
 
@@ -371,4 +371,87 @@ def test_the_page_of_any_number_of_teeth(teeth: int) -> None:
     for each in unit.components:
         if each["type"] == "cylindrical_gear":
             each["attributes"]["number_of_teeth"] = (teeth, "none")
-    assert unit_html(unit.xml(), "", MOST_BYTES)
+    assert unit_html(unit_json(unit.xml(), MOST_BYTES), "")
+
+
+def in_encoding(text: str, encoding: str) -> bytes:
+    """Return an XML file in an encoding, with the byte order mark that belongs to it."""
+    return text.replace("UTF-8", encoding.removesuffix("-sig").upper()).encode(encoding)
+
+
+@pytest.mark.parametrize("line_end", ["\n", "\r\n"])
+@pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "iso-8859-1"])
+def test_declaration_encoding_and_line_ends_stay_byte_for_byte(encoding: str, line_end: str) -> None:
+    text = turbo_unit().xml().decode().replace("Turbo unit", "Träger µ").replace("\n", line_end)
+    declaration = "<?xml version='1.0' encoding='UTF-8' standalone='yes'?>"
+    text = text.replace('<?xml version="1.0" encoding="UTF-8"?>', declaration)
+    content = in_encoding(text, encoding)
+    document = read(content, MOST_BYTES)
+    stage = document.model.by_type["cylindrical_stage"][0].id
+    written = with_attributes(document.file, stage, [Attribute("custom_tribodrive_x", "µm", 1.5)])
+    assert read(written.content, MOST_BYTES).model.components[stage].attributes["custom_tribodrive_x"].unit == "µm"
+    before, after = (each.decode(encoding).splitlines(keepends=True) for each in (content, written.content))
+    (added,) = [line for line in after if "custom_tribodrive_x" in line]
+    assert [line for line in after if line != added] == before
+    assert added.endswith(f"</attribute>{line_end}")
+    assert with_attributes(written, stage, [Attribute("custom_tribodrive_x", "µm", 1.5)]).content == written.content
+
+
+@pytest.mark.parametrize(
+    ("component", "expected"),
+    [
+        ('<component id="1" name="a&gt;b/"/>', '<component id="1" name="a&gt;b/">{}</component>'),
+        ('<component id="1" name="a>b/" ></component>', '<component id="1" name="a>b/" >{}</component>'),
+        ('<component id="1"><attribute id="y"/></component>', '<component id="1"><attribute id="y"/>{}</component>'),
+        ('<component id="1"><attribute id="x">9</attribute></component>', '<component id="1">{}</component>'),
+        ('<r:component id="1"/>', '<r:component id="1">{}</r:component>'),
+    ],
+)
+def test_only_the_new_attribute_is_added(component: str, expected: str) -> None:
+    around = '<model xmlns:r="urn:r" version="1.4"><components>{}</components></model>'
+    file = read(around.format(component).encode(), MOST_BYTES).file
+    prefix = "r:" if "r:component" in component else ""
+    new = f'<{prefix}attribute id="x" unit="none">1.5</{prefix}attribute>'
+    written = with_attributes(file, 1, [Attribute("x", "none", 1.5)]).content.decode()
+    assert written == around.format(expected.format(new))
+
+
+def test_the_component_of_a_load_case_is_left_alone() -> None:
+    unit = turbo_unit()
+    stage = next(each["id"] for each in unit.components if each["type"] == "cylindrical_stage")
+    unit.cases = [{stage: {"custom_x": (1.0, "none")}}]
+    content = unit.xml()
+    spectrum = content[content.index(b" <load_spectrum") : content.index(b"</model>")]
+    moved = content.replace(spectrum, b"").replace(b" <relations>", spectrum + b" <relations>", 1)
+    written = with_attributes(read(moved, MOST_BYTES).file, stage, [Attribute("custom_x", "none", 2.0)]).content
+    assert spectrum in written
+    assert read(written, MOST_BYTES).model.components[stage].attributes["custom_x"].value == "2.0"
+
+
+@pytest.mark.parametrize("dumped", [{"indent": 4}, {"indent": "\t"}, {"separators": (",", ":")}, {}])
+def test_json_keeps_indentation_and_line_ends(dumped: dict[str, Any]) -> None:
+    for line_end in ("\n", "\r\n"):
+        text = json.dumps(json.loads(turbo_unit().json()), **dumped).replace("\n", line_end) + line_end
+        written = with_attributes(read(text.encode(), MOST_BYTES).file, 3, [Attribute("x", "none", 1.5)])
+        again = with_attributes(written, 3, []).content.decode()
+        document = json.loads(again)
+        (item,) = [each for each in document["model"]["components"] if each["id"] == 3]
+        item["attributes"] = [each for each in item["attributes"] if each["id"] != "x"]
+        assert json.dumps(document, **dumped).replace("\n", line_end) + line_end == text
+
+
+def test_an_archive_comes_back_with_its_other_entries() -> None:
+    buffer = io.BytesIO()
+    with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as made:
+        made.writestr("notes/read me.txt", b"kept")
+        made.writestr("unit/mill.rexs", turbo_unit().xml())
+    document = read(buffer.getvalue(), MOST_BYTES)
+    stage = document.model.by_type["cylindrical_stage"][0].id
+    file = packed(with_attributes(document.file, stage, [Attribute("x", "none", 1.5)]), MOST_BYTES)
+    assert (file.suffix, file.media_type) == (".rexsz", "application/zip")
+    with zipfile.ZipFile(io.BytesIO(file.content)) as archive:
+        assert archive.namelist() == ["notes/read me.txt", "unit/mill.rexs"]
+        assert archive.read("notes/read me.txt") == b"kept"
+        assert b'id="x"' in archive.read("unit/mill.rexs")
+    with pytest.raises(Unprocessable, match="beside the model"):
+        packed(document.file, 3)

@@ -2,12 +2,14 @@
 
 import io
 import json
+import re
 import subprocess
 import sys
 import zipfile
 from html import unescape
 from pathlib import Path
 from typing import Any
+from urllib.parse import parse_qsl
 
 import httpx
 import pytest
@@ -90,6 +92,92 @@ def test_results_come_back_in_the_file(client: httpx.Client) -> None:
     assert len(client.post("/v1/rexs", content=answer.content, headers=XML).json()["stages"]) == 1
     assert results(client, 999).status_code == 422
     assert results(client, stage["id"], {"gears": {}}).status_code == 422
+
+
+OIL = {"lubricant.iso_vg": "220", "temperatures.oil_c": "60", "temperatures.scuffing_test.fzg_stage": "12"}
+
+
+def opened(client: httpx.Client, content: bytes, name: str = "mill 7.rexs") -> str:
+    """Open a file, and return the address of its page."""
+    sent = client.post("/rexs", files={"file": (name, content)})
+    assert sent.status_code == 303
+    return str(sent.headers["location"])
+
+
+def test_oil_is_given_once_for_all_stages(client: httpx.Client) -> None:
+    address = opened(client, three_stages().xml())
+    before = client.get(address).text
+    assert "without an oil there is no film" in before
+    sent = client.get(address, params={"written": "", **OIL, "temperatures.oil_c": "60 °C", "gears.module_mm": "3"})
+    assert sent.status_code == 303
+    assert dict(parse_qsl(sent.headers["location"].partition("?")[2])) == OIL
+    page = unescape(client.get(sent.headers["location"]).text)
+    assert "without an oil there is no film" not in page
+    links = [each for each in re.findall(r'href="(/scuffing\?[^"]+)"', page) if "rexs_stage" in each]
+    assert len({dict(parse_qsl(each))["rexs_stage"] for each in links}) == 3
+    for each in links:
+        assert OIL.items() <= dict(parse_qsl(each.partition("?")[2])).items()
+
+
+def test_the_oil_of_all_stages_replaces_what_the_file_says(client: httpx.Client) -> None:
+    page = unescape(client.get(opened(client, turbo_unit().xml()), params=OIL).text)
+    for address in re.findall(r'href="(/(?:scuffing|drive-train)\?[^"]+)"', page):
+        fields = dict(parse_qsl(address.partition("?")[2]))
+        assert fields["lubricant.iso_vg"] == "220"
+        assert not [name for name in fields if name.startswith("lubricant.kinematic")]
+
+
+@pytest.mark.ci
+def test_all_stages_in_one_table_and_written_back_at_once(client: httpx.Client) -> None:
+    content = three_stages().xml().replace(b"\n", b"\r\n")
+    address = opened(client, content)
+    page = unescape(client.get(address, params={**OIL, "all": "on"}).text)
+    table = page.partition('id="stages"')[2].partition("</table>")[0]
+    rows = re.findall(r"<tr>(.*?)</tr>", table, re.DOTALL)
+    assert len(rows) == 4
+    assert all("Not computed" not in row and "risk" in row for row in rows[1:])
+    written = client.post(f"{address}/results", params=OIL)
+    assert written.headers["content-disposition"] == "attachment; filename*=UTF-8''mill%207.rexs"
+    lines = written.content.splitlines(keepends=True)
+    assert [line for line in lines if b"tribodrive" not in line] == content.splitlines(keepends=True)
+    assert written.content.count(b"custom_tribodrive_scuffing_safety_blok") == 3
+    case = next(each for each in re.findall(r'href="(/scuffing\?[^"]+)"', page))
+    answer = client.get(case.replace("/scuffing?", "/scuffing/result.json?")).json()
+    assert f">{answer['case']}<".encode() in written.content, "the page of the stage has the same case"
+
+
+@pytest.mark.ci
+def test_without_a_stage_the_results_of_all_stages_are_written(client: httpx.Client) -> None:
+    unit = turbo_unit()
+    answer = client.post("/v1/rexs/results", files={"file": ("Träger 1.rexs", unit.xml())})
+    assert answer.status_code == 200
+    assert answer.headers["content-disposition"].endswith("Tr%C3%A4ger%201.rexs")
+    assert b"face_load_factor_contact_stress" in answer.content
+    torn = client.post("/v1/rexs/results", files={"file": ("a.rexs", unit.xml()), "request": (None, "{}")})
+    assert (torn.status_code, torn.json()["errors"][0]["pointer"]) == (422, "/stage")
+
+
+def test_a_stage_that_cannot_be_calculated_says_so(client: httpx.Client) -> None:
+    unit = three_stages()
+    for each in unit.components:
+        if each["type"] == "external_load":
+            each["attributes"].pop("torque_around_u_axis", None)
+    answer = client.post("/v1/rexs/results", files={"file": ("a.rexs", unit.xml())})
+    assert (answer.status_code, answer.json()["errors"][0]["code"]) == (422, "nothing_calculated")
+    address = opened(client, unit.xml())
+    page = client.get(address, params={"all": "on"})
+    assert page.text.count("Not computed: ") == 3
+    assert client.post(f"{address}/results").status_code == 422
+
+
+@pytest.mark.parametrize(
+    "query", ["lubricant.iso_vg=x", "lubricant.iso_vg=NaN", "temperatures.oil_c=1e400", "all=%00", "a" * 5000]
+)
+def test_any_query_of_a_unit_is_answered(client: httpx.Client, query: str) -> None:
+    address = opened(client, three_stages().xml())
+    assert client.get(f"{address}?{query}").status_code == 200
+    assert client.post(f"{address}/results?{query}").status_code in {200, 422}
+    assert client.post(f"/rexs/{'0' * 64}/results?{query}").status_code == 410
 
 
 FIELD = '<input id="rexs-file" name="file" type="file"'

@@ -3,6 +3,7 @@
 import json
 from collections.abc import Callable, Iterable
 from contextlib import suppress
+from dataclasses import replace
 from http import HTTPStatus
 from mimetypes import guess_type
 from pathlib import PurePath
@@ -13,14 +14,15 @@ from fastapi import APIRouter, Request, Response
 from fastapi.responses import HTMLResponse, RedirectResponse
 from starlette.exceptions import HTTPException
 
-from app.calculations import CALCULATIONS, Calculation
+from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import Unreadable, kind_of
 from app.figures import MEDIA_TYPES
 from app.http.problems import answer
 from app.pages import views
 from app.pages.asked import asked_in
 from app.pages.cases import Asked, key_of, opened
-from app.pages.overview import start_page
+from app.pages.overview import new_pair_page, start_page
+from app.pages.pair_report import others_of, report_of
 from app.pages.query import link
 from app.pages.templating import ASSETS, page_path, rendered
 from app.sources import SHORT_SOURCES
@@ -41,6 +43,12 @@ router = APIRouter(include_in_schema=False)
 async def start(http: Request) -> Response:
     """Show the start page."""
     return html(start_page(root_of(http)))
+
+
+@router.get("/pair", response_class=HTMLResponse)
+async def new_pair(http: Request) -> Response:
+    """Show the form of a new gear pair."""
+    return html(new_pair_page(root_of(http)))
 
 
 @router.get("/static/{name}")
@@ -64,8 +72,8 @@ async def open_case(http: Request) -> Response:
     if not asked.too_long:
         return redirected(asked.path, asked)
     await http.app.state.start_up.wait(http, asked.calculation.kernels.of(dict(asked.pairs).get))
-    shown = await _shown(http, asked, views.page)
-    return html(shown.content, shown.status)
+    found = await shown(http, asked, views.page)
+    return html(found.content, found.status)
 
 
 def _add(calculation: Calculation) -> None:
@@ -78,7 +86,7 @@ def _add(calculation: Calculation) -> None:
 
     @router.api_route(f"{path}/report", methods=METHODS, response_class=HTMLResponse)
     async def report(http: Request) -> Response:
-        return await _answer(http, calculation, HTML, views.report, printed_host(http))
+        return await _answer(http, calculation, HTML, report_of, printed_host(http), await _others(http, calculation))
 
     @router.api_route(f"{path}/result.{{media}}", methods=METHODS)
     async def result(http: Request, media: str) -> Response:
@@ -97,6 +105,9 @@ def _add(calculation: Calculation) -> None:
         headers = {"Content-Security-Policy": DOCUMENT_POLICY, "Content-Disposition": disposition}
         return Response(json.dumps(content, indent=1, ensure_ascii=False), media_type=JSON, headers=headers)
 
+    for there in calculation.words.hands_on:
+        _add_into(calculation, there)
+
     @router.api_route(f"{path}/figures/{{name}}.{{image_format}}", methods=METHODS)
     async def figure(http: Request, name: str, image_format: str) -> Response:
         kinds = MEDIA_TYPES | {"json": JSON}
@@ -104,9 +115,39 @@ def _add(calculation: Calculation) -> None:
             raise unknown_figure(names, MEDIA_TYPES)
         media = kinds[image_format]
         if "case" in http.query_params:
-            shown = await _shown(http, _kept(http, path), views.figure, name, image_format)
-            return Response(shown.content, media_type=media, headers={"Content-Security-Policy": DOCUMENT_POLICY})
+            found = await shown(http, _kept(http, path), views.figure, name, image_format)
+            return Response(found.content, media_type=media, headers={"Content-Security-Policy": DOCUMENT_POLICY})
         return await _answer(http, calculation, media, views.figure, name, image_format)
+
+
+async def _others(http: Request, calculation: Calculation) -> list[Asked]:
+    """Return the other cases of a report with their answers; every case is solved by its own call."""
+    asked, _ = await asked_of(http, calculation)
+    others = others_of(asked)
+    return [await with_answer(http, each) for each in (asked, *others)][1:] if others else []
+
+
+async def with_answer(http: Request, asked: Asked) -> Asked:
+    """Return a case with its answer, which a worker makes unless the service still keeps it."""
+    answers, key = http.app.state.answers, key_of(asked.path, asked.pairs)
+    if (kept := answers.get(key)) is None:
+        await http.app.state.start_up.wait(http, asked.calculation.kernels.of(dict(asked.pairs).get))
+        found = await shown(http, asked, views.summary)
+        kept = found.keep.get(key)
+    return replace(asked, kept=kept)
+
+
+def _add_into(calculation: Calculation, there: str) -> None:
+    """Add the address that solves a case, and continues on the page of `there` with the result as an input."""
+
+    @router.get(f"{page_path(calculation)}/into{page_path(BY_PATH[there])}", response_class=HTMLResponse)
+    async def into(http: Request) -> Response:
+        asked, _ = await asked_of(http, calculation)
+        await http.app.state.start_up.wait(http, calculation.kernels.of(dict(asked.pairs).get))
+        found = await shown(http, asked, views.handed_on, there)
+        if found.status == HTTPStatus.SEE_OTHER:
+            return RedirectResponse(root_of(http) + found.content.decode(), found.status)
+        return html(found.content, found.status)
 
 
 async def _answer(
@@ -121,9 +162,9 @@ async def _answer(
         return redirected(path_of(http), asked)
     if asked.pairs:
         await http.app.state.start_up.wait(http, calculation.kernels.of(dict(asked.pairs).get))
-    shown = await _shown(http, asked, view, *arguments)
+    found = await shown(http, asked, view, *arguments)
     policy = PAGE_POLICY if view is views.page else DOCUMENT_POLICY
-    return Response(shown.content, shown.status, media_type=media, headers={"Content-Security-Policy": policy})
+    return Response(found.content, found.status, media_type=media, headers={"Content-Security-Policy": policy})
 
 
 def redirected(place: str, asked: Asked) -> Response:
@@ -152,16 +193,16 @@ def _kept(http: Request, path: str) -> Asked:
     return Asked(path, [], looks, kept, kept_ref)
 
 
-async def _shown(http: Request, asked: Asked, view: Callable[..., views.Shown], *arguments: Any) -> views.Shown:
+async def shown(http: Request, asked: Asked, view: Callable[..., views.Shown], *arguments: Any) -> views.Shown:
     """Let a worker make a view of a case, and return the view.
 
     The service keeps the answers that the worker used, so that other views of the case can reuse these answers.
     """
-    shown: views.Shown = await http.app.state.pool.calculate(http, view, asked, *arguments)
-    for key, content in shown.keep.items():
+    found: views.Shown = await http.app.state.pool.calculate(http, view, asked, *arguments)
+    for key, content in found.keep.items():
         with suppress(ValueError):  # ValueError: the answer is larger than the space for all kept answers
             http.app.state.answers[key] = content
-    return shown
+    return found
 
 
 def failed(http: Request, error: Exception) -> Response:

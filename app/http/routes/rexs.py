@@ -1,21 +1,32 @@
-"""Routes for gear units from REXS files: read a file, show it as a page, and send it back with results."""
+"""Routes for gear units from REXS files: read a file, show it as a page, and send it back with results.
 
+A file and its unit are kept in memory for a while, so that its page can calculate all stages and write them back.
+"""
+
+import json
+import zlib
 from collections.abc import AsyncIterator
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
+from dataclasses import replace
 from hashlib import file_digest
 from io import BytesIO
 from pathlib import PurePath
 from shutil import copyfileobj
 from tempfile import NamedTemporaryFile
 from typing import Annotated, Any, NamedTuple
+from urllib.parse import quote
 
 from fastapi import APIRouter, HTTPException, Query, Request, Response
 from fastapi.responses import HTMLResponse, RedirectResponse
 
 from app.errors import Unprocessable
 from app.http.problems import documented
-from app.http.routes.pages import html, problem_page, root_of
-from app.pages.query import REPORT_NAMES
+from app.http.routes.pages import html, problem_page, root_of, shown
+from app.pages import views
+from app.pages.cases import Asked, key_of
+from app.pages.overview import common_of
+from app.pages.query import REPORT_NAMES, WRITTEN, Pairs, link
+from app.pages.views import Shown
 from app.rexs import answer
 from app.rexs.document import File
 
@@ -74,24 +85,55 @@ async def read_unit(http: Request) -> Response:
     response_class=Response,
     openapi_extra=UPLOAD_WITH_REQUEST,
     operation_id="rexs_results",
-    summary="A gear unit's file (REXS) with the results of a stage in it",
+    summary="A gear unit's file (REXS) with the results of a stage, or of all stages, in it",
     responses={200: {"description": "the file with results", "content": {"application/xml": {"schema": FILE}}}},
 )
 async def write_results(
-    http: Request, stage: Annotated[int, Query(description="id of the stage's component")]
+    http: Request,
+    stage: Annotated[int | None, Query(description="id of the stage's component; without it, all stages")] = None,
 ) -> Response:
-    """Write the numerical results of a stage into the file.
+    """Write the numerical results of a stage, or of all stages, into the file.
 
     The results become attributes of the component that describes the stage. A result for which the standard has an
     attribute is written to this attribute. Any other result is written to an attribute whose name begins with
-    `custom_tribodrive_`. The rest of the file is unchanged.
+    `custom_tribodrive_`. The rest of the file is unchanged, with its name, its declaration and its line ends. Of all
+    stages, one that cannot be calculated gets the reason as its status.
     """
     state = http.app.state
     async with _uploaded(http) as upload:
-        limits = (state.settings.rexs_bytes, stage, upload.request, state.settings.deadline_s)
-        file: File = await state.pool.calculate(http, answer.of_file, upload.path, answer.with_results, *limits)
-    headers = {"Content-Disposition": f'attachment; filename="results{file.suffix}"'}
-    return Response(file.content, media_type=file.media_type, headers=headers)
+        if stage is not None:
+            limits = (state.settings.rexs_bytes, stage, upload.request, state.settings.deadline_s)
+            file: File = await state.pool.calculate(http, answer.of_file, upload.path, answer.with_results, *limits)
+            return _download(file, upload.name)
+        if upload.request is not None:
+            raise Unprocessable("missing", "the part 'request' belongs to one stage; give its id as `stage`", "stage")
+        unit = await state.pool.calculate(
+            http, answer.of_file, upload.path, answer.unit_json, state.settings.rexs_bytes
+        )
+        solved = await _solved(http, unit, [])
+        limits_of_all = (state.settings.rexs_bytes, [(stages, asked) for stages, asked, _ in solved])
+        file = await state.pool.calculate(http, answer.of_file, upload.path, answer.with_all_results, *limits_of_all)
+        return _download(file, upload.name)
+
+
+def _download(file: File, name: str) -> Response:
+    """Send a file under the name that it had."""
+    disposition = f"attachment; filename*=UTF-8''{quote(name or 'results' + file.suffix)}"
+    return Response(file.content, media_type=file.media_type, headers={"Content-Disposition": disposition})
+
+
+async def _solved(http: Request, unit: bytes, common: Pairs) -> list[tuple[list[int], Asked, dict[str, Any]]]:
+    """Calculate all stages of a unit one after another: ids in the file, case with its answer, and summary."""
+    state = http.app.state
+    cases = await state.pool.calculate(http, answer.cases_of, unit, common)
+    solved = []
+    for stages, asked in cases:
+        key = key_of(asked.path, asked.pairs)
+        await state.start_up.wait(http, asked.calculation.kernels.of(dict(asked.pairs).get))
+        found: Shown = await shown(http, replace(asked, kept=state.answers.get(key)), views.summary)
+        kept = found.keep.get(key) or state.answers.get(key)
+        solved.append((stages, replace(asked, kept=kept), json.loads(found.content)))
+    return solved
 
 
 @pages.get("/rexs")
@@ -104,35 +146,77 @@ async def ask_for_unit(http: Request) -> Response:
 async def open_unit(http: Request) -> Response:
     """Read a file and redirect to the page of its gear unit.
 
-    If the page is too large to keep, answer with the page itself. If the file cannot be read, answer with the reason.
+    If the unit is too large to keep, answer with the page itself. If the file cannot be read, answer with the reason.
     """
-    root = root_of(http)
+    root, state = root_of(http), http.app.state
     try:
         async with _uploaded(http) as upload:
-            arguments = (upload.path, answer.unit_html, root, http.app.state.settings.rexs_bytes, upload.name)
-            shown = await http.app.state.pool.calculate(http, answer.of_file, *arguments)
+            arguments = (upload.path, answer.unit_json, state.settings.rexs_bytes)
+            unit: bytes = await state.pool.calculate(http, answer.of_file, *arguments)
+            content: bytes = await state.pool.calculate(http, answer.of_file, upload.path, zlib.compress)
     except Unprocessable as error:
         return problem_page(http, 422, "The file cannot be read", error.message)
-    name = upload.sha256
+    sha256 = upload.sha256
     try:
-        http.app.state.answers[_key(root, name)] = shown
-    except ValueError:  # the page is larger than the space for kept pages
-        return html(shown)
-    return RedirectResponse(f"{root}/rexs/{name}", 303)
+        state.answers[_key("unit", sha256)] = upload.name.encode() + b"\0" + unit
+    except ValueError:  # the unit is larger than the space for all that is kept
+        return html(await state.pool.calculate(http, answer.unit_html, unit, root, upload.name, sha256))
+    with suppress(ValueError):
+        state.answers[_key("file", sha256)] = content
+    return RedirectResponse(f"{root}/rexs/{sha256}", 303)
 
 
-@pages.get("/rexs/{name}", response_class=HTMLResponse)
-async def show_unit(http: Request, name: str) -> Response:
-    """Show the page of a unit: its stages, findings and links. Answer 410 if the page is no longer kept."""
-    shown = http.app.state.answers.get(_key(root_of(http), name))
-    if shown is None:
-        reason = "The service keeps such a page for a short time only. This page no longer exists; open the file again."
-        return problem_page(http, 410, "The file has to be opened again", reason)
-    return html(shown)
+@pages.get("/rexs/{sha256}", response_class=HTMLResponse)
+async def show_unit(http: Request, sha256: str) -> Response:
+    """Show the page of a unit: stages, findings and links; the results of all stages, if the query asks for them.
+
+    Answer 410 if the unit is no longer kept.
+    """
+    if (kept := _kept(http, sha256)) is None:
+        return _gone(http)
+    name, unit = kept
+    common, asks = common_of(http.url.query), "all" in http.query_params
+    if WRITTEN in http.query_params:
+        views_of = {"all": "on"} if asks else {}
+        return RedirectResponse(root_of(http) + link(f"/rexs/{sha256}", common, **views_of), 303)
+    results = [summary for *_, summary in await _solved(http, unit, common)] if asks else []
+    is_kept = _key("file", sha256) in http.app.state.answers
+    arguments = (unit, root_of(http), name, sha256, common, results, is_kept)
+    return html(await http.app.state.pool.calculate(http, answer.unit_html, *arguments))
 
 
-def _key(root: str, name: str) -> str:
-    return f"unit {name} {root}"
+@pages.post("/rexs/{sha256}/results", response_class=HTMLResponse)
+async def write_all(http: Request, sha256: str) -> Response:
+    """Send the file with the results of all stages; answer 410 if the file is no longer kept."""
+    kept, packed = _kept(http, sha256), http.app.state.answers.get(_key("file", sha256))
+    if kept is None or packed is None:
+        return _gone(http)
+    name, unit = kept
+    solved = await _solved(http, unit, common_of(http.url.query))
+    cases = [(stages, asked) for stages, asked, _ in solved]
+    arguments = (zlib.decompress(packed), http.app.state.settings.rexs_bytes, cases)
+    try:
+        return _download(await http.app.state.pool.calculate(http, answer.with_all_results, *arguments), name)
+    except Unprocessable as error:
+        return problem_page(http, 422, "Nothing can be written", error.message)
+
+
+def _kept(http: Request, sha256: str) -> tuple[str, bytes] | None:
+    """Return the name of a unit's file and the unit as JSON, if they are still kept."""
+    kept: bytes | None = http.app.state.answers.get(_key("unit", sha256))
+    if kept is None:
+        return None
+    name, _, unit = kept.partition(b"\0")
+    return name.decode(), unit
+
+
+def _gone(http: Request) -> Response:
+    reason = "The service keeps such a page for a short time only. This page no longer exists; open the file again."
+    return problem_page(http, 410, "The file has to be opened again", reason)
+
+
+def _key(kind: str, sha256: str) -> str:
+    return f"{kind} {sha256}"
 
 
 @asynccontextmanager

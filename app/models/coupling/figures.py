@@ -166,7 +166,9 @@ def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figur
     else:
         least = present(result.min_load_capacity_coefficient)
         most = max(present(result.at_min).contact_overlap, present(result.at_max).contact_overlap)
-        finding = f"ε = {number(best)}: least Tr = {number(least)} with Pu up to {number(most)}"
+        radius, drop = present(result.crowning_radius), present(result.crowning_drop)
+        finding = f"radius {number(radius, 'mm')}, drop {number(drop, 'µm')}, ε = {number(best)}: "
+        finding += f"least Tr = {number(least)} with Pu up to {number(most)}"
         choice.append(Level(best, "", vertical=True))
         marks.append(Mark(best, least, f"ε = {number(best)}, Tr = {number(least)}"))
         inside.append(best)

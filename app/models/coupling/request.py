@@ -80,6 +80,7 @@ class CouplingOperationRange(CouplingLoad):
             unit="deg",
             ge=1e-4,
             le=6,
+            index="smallest, largest",
         ),
     ]
 

@@ -4,6 +4,7 @@ from typing import Annotated, Any
 
 from app.figures.wording import number, percent
 from app.models.card import NEAR_LIMIT, Verdict, Words
+from app.models.coupling.figures import CONSTRAINTS
 from app.schema.answers import Group, Response, component, group, named
 from app.schema.quantities import Output, View
 from solvers.coupling import crowning, results
@@ -44,6 +45,7 @@ component(
 component(results.Limits, "CouplingLimits", allowable_misalignment=View(headline=4))
 component(
     crowning.RecommendedPoint,
+    load_concentration=View(headline=3),
     contact_overlap=View(limit=1.0, bound="upper"),
     load_capacity_coefficient=View(limit=FULL_FILM, bound="lower"),
 )
@@ -79,9 +81,10 @@ RECOMMENDATION = group(
     crowning.Recommendation,
     "RecommendationResponse",
     base=Response,
-    feasible=View(headline=2),
-    crowning_ratio=View(headline=1),
-    min_load_capacity_coefficient=View(headline=3),
+    crowning_radius=View(headline=1),
+    crowning_drop=View(headline=2),
+    unloading_margin=View(headline=4, limit=1.0, bound="lower"),
+    min_load_capacity_coefficient=View(headline=5),
 )
 
 
@@ -159,14 +162,69 @@ def orbit_verdict(response: Any) -> Verdict:
     return Verdict("plain", f"The sleeve whirls by {number(response.max_displacement_um, 'µm')} at most.")
 
 
-def recommendation_verdict(response: Any) -> Verdict:
-    """Say whether a crowning serves the whole range of misalignment."""
+def crowning_verdicts(response: Any) -> dict[str, Verdict]:
+    """Say what belongs to radius and drop of the crowning, and judge what it costs; nothing if no crowning serves."""
     if not response.feasible:
-        return Verdict("bad", "No crowning serves this range.")
-    least = number(response.min_load_capacity_coefficient)
-    return Verdict("good", f"A crowning serves: ε {number(response.crowning_ratio)}, Tr {least} at the least.")
+        return {}
+    teeth, largest = response.inputs["coupling"]["teeth"], _range_of(response)[1]
+    judged = {
+        "crowning_radius_mm": Verdict("plain", f"crowning ratio ε = {number(response.crowning_ratio)}"),
+        "crowning_drop_um": Verdict(
+            "plain", f"of the flank at both ends of the {number(response.derived.face_width_mm, 'mm')} face"
+        ),
+    }
+    for place, tilt in zip(("at_min", "at_max"), _range_of(response), strict=True):
+        point = getattr(response, place)
+        carry = "all" if point.loaded_teeth == teeth else f"{point.loaded_teeth} of"
+        judged[f"{place}.load_concentration"] = Verdict(
+            "plain", f"times the mean tooth force, at {number(tilt, '°')}; {carry} {teeth} teeth carry"
+        )
+    unloads = number(response.unloading_misalignment_deg, "°")
+    if response.unloading_margin < 1.0:
+        verdict = Verdict("near", f"teeth unload within the range, from {unloads}")
+    else:
+        level = "near" if response.unloading_margin < 1.0 / NEAR_LIMIT else "good"
+        verdict = Verdict(level, f"the first tooth unloads at {unloads}; the range ends at {number(largest, '°')}")
+    return judged | {"unloading_margin": verdict}
 
 
+def _range_of(response: Any) -> list[float]:
+    """Return the smallest and the largest misalignment of the range [deg]."""
+    ends: list[float] = response.inputs["operation"]["misalignment_range_deg"]
+    return ends
+
+
+def recommendation_verdict(response: Any) -> Verdict:
+    """Say which crowning to make, or why none serves the range of misalignment."""
+    if not response.feasible:
+        low, high = (number(tilt, "°") for tilt in _range_of(response))
+        return Verdict("bad", f"No crowning serves {low} to {high}: {CONSTRAINTS[response.failed_constraint]}.")
+    return Verdict(
+        "good" if response.unloading_margin >= 1.0 else "near",
+        f"Crown with radius {number(response.crowning_radius_mm, 'mm')}: the flanks drop "
+        f"{number(response.crowning_drop_um, 'µm')} over the {number(response.derived.face_width_mm, 'mm')} face "
+        f"(ε = {number(response.crowning_ratio)}).",
+    )
+
+
+def crowning_conclusion(response: Any) -> str:
+    """Say what the crowning costs in load sharing, and how far the range is from unloading."""
+    if not response.feasible:
+        return ""
+    point, margin = response.at_max, response.unloading_margin
+    unloads = "already unload" if margin < 1.0 else "unload"
+    return (
+        f"At {number(_range_of(response)[1], '°')} the most loaded tooth carries {number(point.load_concentration)} "
+        f"times the mean; teeth {unloads} from {number(response.unloading_misalignment_deg, '°')}, "
+        f"{number(margin)} times that misalignment."
+    )
+
+
+FOUND = {
+    "coupling.crowning_ratio": "crowning_ratio",
+    "operation.misalignment_deg": "inputs.operation.misalignment_range_deg.1",
+}
+"""The crowning that was found, and the largest misalignment of the range, where the teeth share the load worst."""
 _THRUST, _FILM = "axial_thrust.design_force_n", "lubrication.load_capacity_coefficient"
 
 WORDS = Words(
@@ -186,4 +244,10 @@ WORDS = Words(
     },
 )
 ORBIT_WORDS = Words(verdict=orbit_verdict)
-RECOMMENDATION_WORDS = Words(verdict=recommendation_verdict, touches={"infeasible": ()})
+RECOMMENDATION_WORDS = Words(
+    verdict=recommendation_verdict,
+    verdicts=crowning_verdicts,
+    conclusion=crowning_conclusion,
+    touches={"infeasible": ()},
+    hands_on={"/v1/coupling": FOUND, "/v1/coupling/sleeve-orbit": FOUND},
+)

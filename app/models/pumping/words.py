@@ -151,6 +151,7 @@ WORDS = Words(
         "incompressible_mach": _both("peak_axial_mach"),
     },
     losses=("total.pumping_power_w",),
+    hands_on={"/v1/scuffing": {"cooling.pumping_w": "total.pumping_power_w"}},
     from_file=FromFile(
         frozenset({"gears"}),
         unknown=frozenset({"gears.hand"}),

@@ -10,12 +10,13 @@ from app.figures.studies import Lead, lead_chart, search
 from app.figures.units import axis_of
 from app.models.drive_train.figures import GAP, LOAD_ALONE
 from app.pages.cases import SolvedCase
+from app.pages.pair_path import WITH_PAIR
 from app.pages.studies.controls import Control
 from app.pages.studies.page import OUTPUT, Controls, Link, Number, Result, Table
 from app.pages.studies.unit import UnitPage, load_figure
 from app.pages.study_kinds import CORNERS, DESIGN
 from app.pages.typesetting import shown
-from app.schema.fields import value_at
+from app.schema.fields import leaf_at, value_at
 from app.studies.kinds.design import SECOND_HELIX, Design
 from app.studies.requests import Overrides
 from app.studies.runner import Line
@@ -147,9 +148,10 @@ class DesignPage(UnitPage):
             (
                 Link("Open the unit ground so", self.address(at)),
                 Link("Its report", self.address(at, "/report")),
+                Link("One report of all steps", self.address(at, "/report", extent=WITH_PAIR)),
                 Link("Its worst corners", self.address(at, f"/{CORNERS.name}")),
             ),
-            first=(self._sheet(case, at), self._before_and_after(end, wanted, case, ground)),
+            first=(grinding_sheet(case, at), self._before_and_after(end, wanted, case, ground)),
         )
 
     def _so_far(self, start: Line, best: Line) -> Table:
@@ -161,33 +163,6 @@ class DesignPage(UnitPage):
         judged = f"{self.output.title}, at the worst corner"
         rows.append((judged, shown(start["objective"]), shown(best["objective"]), self.output.unit or ""))
         return Table("Best so far", ("correction", Number("as described"), Number("best so far"), "unit"), rows)
-
-    def _sheet(self, case: SolvedCase, at: Overrides) -> Table:
-        """Return the sheet for the grinder: gear, place on the flank, amount and tolerance of each correction."""
-        inputs, faces = case.response.inputs, _faces(case)
-        tip, wheel_tip = (
-            f"tip relief, {shown(length)} mm along the line of action" if length is not None else "tip relief"
-            for length in (value_at(inputs, path.replace("_um", "_length_mm")) for path in (TIP, ROOT))
-        )
-        entries = [entry for each in faces for entry in _lead_entries(each, float(at[each.slope] or 0.0))]
-        both = ", both helices" if len(faces) > 1 else ""
-        entries.append((TIP, f"pinion{both}", tip, "tip deeper than the involute"))
-        entries.append((ROOT, f"wheel{both}", wheel_tip, "tip deeper than the involute"))
-        rows = []
-        for path, gear, feature, place in entries:
-            leaf, described, amount = self.input(path), _described(case, path), float(at[path] or 0.0)
-            if path in {SLOPE, SLOPE_2}:  # for the slope, the column `where` shows the sign
-                described, amount = -described if amount < 0.0 else described, abs(amount)
-            numbers = (shown(described), shown(amount, 4), f"± {shown(leaf.declared.tolerance)}")
-            rows.append((gear, feature, place, *numbers, leaf.unit or ""))
-        numbered = map(Number, ("as described", "grind", "tolerance"))
-        note = (
-            'Only the working flanks are corrected. "Deeper" means that more material is removed. Corrections are '
-            f"multiples of {STEP_UM:g} µm; the tolerances are usual for these corrections. Helix slope and crowning "
-            "are the sums for both gears and are put on the pinion. Tip relief of the wheel replaces root relief of "
-            "the pinion."
-        )
-        return Table("What to grind", ("gear", "correction", "where", *numbered, "unit"), rows, note)
 
     def _before_and_after(self, end: Line, wanted: Line, case: SolvedCase, ground: SolvedCase) -> Table:
         """Return a table that compares the output before and after the correction."""
@@ -220,6 +195,46 @@ class DesignPage(UnitPage):
             chart = lead_chart(values(curves.z_mm), position / position[-1], wanted, before, tolerance, each.ends)
             charts.append(replace(chart, panels=[replace(panel, title=each.name or None) for panel in chart.panels]))
         return replace(charts[0], panels=[panel for chart in charts for panel in chart.panels])
+
+
+def grinding_sheet(case: SolvedCase, at: Overrides | None = None) -> Table:
+    """Return the sheet for the grinder: gear, place on the flank, amount and tolerance of each correction.
+
+    `at` are the corrections to grind, beside those of the case; None: the corrections of the case itself.
+    """
+    inputs, faces, request = case.response.inputs, _faces(case), type(case.request)
+    tip, wheel_tip = (
+        f"tip relief, {shown(length)} mm along the line of action" if length is not None else "tip relief"
+        for length in (value_at(inputs, path.replace("_um", "_length_mm")) for path in (TIP, ROOT))
+    )
+    wanted = {path: _described(case, path) if at is None else float(at[path] or 0.0) for path in _corrections(faces)}
+    entries = [entry for each in faces for entry in _lead_entries(each, wanted[each.slope])]
+    both = ", both helices" if len(faces) > 1 else ""
+    entries.append((TIP, f"pinion{both}", tip, "tip deeper than the involute"))
+    entries.append((ROOT, f"wheel{both}", wheel_tip, "tip deeper than the involute"))
+    rows = []
+    for path, gear, feature, place in entries:
+        leaf, described, amount = leaf_at(request, path), _described(case, path), wanted[path]
+        assert leaf is not None
+        if path in {SLOPE, SLOPE_2}:  # for the slope, the column `where` shows the sign
+            described, amount = -described if amount < 0.0 else described, abs(amount)
+        before = () if at is None else (shown(described),)
+        rows.append(
+            (gear, feature, place, *before, shown(amount, 4), f"± {shown(leaf.declared.tolerance)}", leaf.unit or "")
+        )
+    numbered = map(Number, ("grind", "tolerance") if at is None else ("as described", "grind", "tolerance"))
+    note = (
+        'Only the working flanks are corrected. "Deeper" means that more material is removed. '
+        + (f"Corrections are multiples of {STEP_UM:g} µm; the" if at else "The")
+        + " tolerances are usual for these corrections. Helix slope and crowning are the sums for both gears and are "
+        "put on the pinion. Tip relief of the wheel replaces root relief of the pinion."
+    )
+    return Table("What to grind", ("gear", "correction", "where", *numbered, "unit"), rows, note)
+
+
+def _corrections(faces: list["_Face"]) -> list[str]:
+    """Return the fields of all corrections."""
+    return [*(path for each in faces for path in (each.slope, each.crowning)), TIP, ROOT]
 
 
 class _Face(NamedTuple):

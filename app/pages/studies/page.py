@@ -15,13 +15,14 @@ from app.calculations import Calculation
 from app.errors import Unprocessable, Unreadable
 from app.figures import Format, written
 from app.figures.data import Figure
-from app.pages.cases import FILE_NAMES, REFUSED, Asked, FormFault, SolvedCase, faults_of, solved
+from app.pages.cases import CARRIED_NAMES, REFUSED, Asked, FormFault, SolvedCase, faults_of, solved
 from app.pages.charts import embedded
 from app.pages.form import FieldView
+from app.pages.pair_path import path_of
 from app.pages.query import LONGEST_QUERY, link, pairs_of, written_of
 from app.pages.results import NOT_RESULTS
 from app.pages.studies.controls import Choice, Control, Menu, Options, body_of
-from app.pages.study_kinds import CASES, StudyLink, control_names
+from app.pages.study_kinds import CASES, DESIGN, StudyLink, control_names
 from app.pages.study_links import Starter, StudyExample
 from app.pages.templating import examples_of, rendered
 from app.pages.typed import as_typed, question, text_of
@@ -238,7 +239,7 @@ class StudyPage(ABC):
 
     def view(self, below: str) -> str:
         """Return the address of a file, a figure or the report of this page."""
-        kept = control_names() | {"theme", *FILE_NAMES}
+        kept = control_names() | {"theme", *CARRIED_NAMES}
         views = {name: text for name, text in self.views.items() if name in kept}
         return link(f"{self.asked.path}/{self.link.name}{below}", self.asked.pairs, **views, sources=SHORT_SOURCES)
 
@@ -262,11 +263,11 @@ class StudyPage(ABC):
         """Return the field of the request at a path; raise Unprocessable if the path leads to no single value."""
         return scalar_at(self.calculation.request, path, "", "unknown_path")
 
-    def address(self, overrides: Overrides, below: str = "") -> str:
+    def address(self, overrides: Overrides, below: str = "", **views: str) -> str:
         """Return the address of the case with the values of one point of the study."""
         body = with_overrides(self.calculation, self.asked.body, overrides)
         del body["detail"]
-        return link(f"{self.asked.path}{below}", pairs_of(body), theme=self.asked.theme)
+        return link(f"{self.asked.path}{below}", pairs_of(body), theme=self.asked.theme, **self.asked.carried, **views)
 
     def solved(self, overrides: Overrides) -> SolvedCase:
         """Return the case with the values of one point of the study, and with the answer for this point."""
@@ -311,9 +312,10 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
         asked=asked,
         calculation=page.calculation,
         groups=groups,
-        hidden=[pair for pair in (*asked.pairs, ("theme", asked.theme), *asked.file.items()) if pair[1]],
+        hidden=[pair for pair in (*asked.pairs, ("theme", asked.theme), *asked.carried.items()) if pair[1]],
         other_faults=[fault for fault in page.faults if fault.path not in controls],
         written=written_of(asked.calculation.request, [*asked.pairs, *texts.items()]),
+        path=path_of(asked, page.link.name) if page.link == DESIGN else [],
         frames=FRAMES,
     )
     head, _, tail = content.partition(FRAMES)

@@ -1,14 +1,21 @@
 """The recommended crowning meets its constraints, and no other feasible crowning is better."""
 
 from functools import partial
-from math import radians
+from math import radians, tan
 
 import numpy as np
 import pytest
 
 from benchmarks.published.pahl import pahl_coupling
-from solvers.coupling.crowning import at_misalignment, crowning_state, crowning_window, recommend
-from solvers.coupling.inputs import ModelOptions, RecommendationInputs
+from solvers.coupling.crowning import (
+    at_misalignment,
+    crowning_drop,
+    crowning_state,
+    crowning_window,
+    recommend,
+)
+from solvers.coupling.inputs import Coupling, ModelOptions, RecommendationInputs
+from solvers.coupling.kinematics import tooth_geometry
 from solvers.coupling.model import solve
 from tests.support.couplings import random_pitch_errors
 from tests.support.outcomes import codes, refused
@@ -137,3 +144,39 @@ def test_nothing_to_recommend(inputs: RecommendationInputs, code: str, field: st
     found, named = refused(recommend, inputs)
     assert found == code
     assert field is None or named == field
+
+
+def test_a_ratio_is_a_radius_and_a_drop() -> None:
+    """The coupling of issue and manual: 80 teeth of 3 mm, a face of 32 mm, ratio 15.6."""
+    coupling = Coupling(80, 3e-3, face_width=32e-3, crowning_ratio=15.6)
+    geometry = tooth_geometry(coupling)
+    assert geometry.crowning_radius == pytest.approx(1.872)
+    drop = crowning_drop(coupling, geometry)
+    assert drop == pytest.approx(25e-6, rel=0.01)
+    infeed = geometry.crowning_radius - (geometry.crowning_radius**2 - 0.016**2) ** 0.5  # of the cutter's circle
+    assert drop == pytest.approx(infeed * tan(coupling.pressure_angle), rel=1e-4)
+
+
+def test_the_cost_of_the_crowning_is_that_of_the_coupling_with_it() -> None:
+    inputs = misalignments(0.05, 0.2)
+    found = recommend(inputs)
+    assert found.crowning_ratio
+    assert found.at_min
+    assert found.at_max
+    assert found.unloading_misalignment
+    for point, tilt in ((found.at_min, inputs.min_misalignment), (found.at_max, inputs.max_misalignment)):
+        load = solve(at_misalignment(inputs, found.crowning_ratio, tilt)).load_distribution
+        assert (point.load_concentration, point.loaded_teeth) == (load.load_concentration, load.loaded_teeth)
+    assert found.unloading_margin == pytest.approx(found.unloading_misalignment / inputs.max_misalignment)
+    teeth = inputs.design.coupling.teeth
+    for share, all_carry in ((0.98, True), (1.02, False)):
+        tilt = share * found.unloading_misalignment
+        load = solve(at_misalignment(inputs, found.crowning_ratio, tilt)).load_distribution
+        assert (load.loaded_teeth == teeth) is all_carry
+
+
+def test_without_a_crowning_there_is_no_radius() -> None:
+    found = recommend(misalignments(0.05, 1.0))
+    assert not found.feasible
+    values = (found.crowning_radius, found.crowning_drop, found.unloading_misalignment, found.unloading_margin)
+    assert values == (None, None, None, None)
