@@ -146,6 +146,11 @@ class Quantity:
         """Ends of the range under the names `ge`, `gt`, `le` and `lt`; ends that are not given are left out."""
         return {name: end for name in ("ge", "gt", "le", "lt") if (end := getattr(self, name)) is not None}
 
+    def tolerance_of(self, value: float) -> float | None:
+        """Return the usual uncertainty of a value, both in the shown unit; None if none is declared."""
+        relative = None if self.relative_tolerance is None else self.relative_tolerance * abs(value)
+        return max((each for each in (self.tolerance, relative) if each is not None), default=None)
+
     def to_si(self, value: Any) -> Any:
         """Return a number or a list of numbers in SI; return any other value unchanged."""
         return converted(value, UNITS[self.unit].to_si) if self.unit else value

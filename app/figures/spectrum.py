@@ -40,7 +40,7 @@ class Limited(NamedTuple):
     `found` is what the study states about the limit: the mean and the standard deviation of the limit, the side that
     is a violation ("above" or "below"), the probability of a violation, and the histogram of the output in the worst
     case. The histogram is empty if this output does not vary. `influences` maps the title of each scattering input to
-    its rank correlation with the output in the worst case.
+    the share of the variance of the worst case that it explains alone.
     """
 
     output: Axis
@@ -63,11 +63,22 @@ def chance_text(chance: dict[str, Any]) -> str:
     return percent(low) if low == high else f"{percent(low)} to {percent(high)}"
 
 
-def sentence(limit: dict[str, Any]) -> str:
-    """Return a text with the probability that the output violates its limit, and with the resulting risk."""
-    interval = None if is_tiny(limit) else limit["interval"]
-    reach = f", 90 % interval {percent(interval[0])} to {percent(interval[1])}" if interval else ""
-    return f"probability of being {limit['side']} the limit {chance_text(limit)}{reach}: {limit['risk']} risk"
+def sentence(limit: dict[str, Any], output: str) -> str:
+    """Return the verdict of a limit: in a few words, the share of the machines beyond it, the error of sampling.
+
+    The risk is in words only for the scuffing temperature, whose standard has such words.
+    """
+    risk, is_rare = limit["risk"], is_tiny(limit) or max(limit["bounds"]) == 0.0
+    if risk is not None:
+        verdict = f"{risk[0].upper()}{risk[1:]} risk of scuffing: {chance_text(limit)} of the machines"
+    elif is_rare:
+        verdict = f"The limit holds: {chance_text(limit)} of the machines have the {output} {limit['side']} it"
+    else:
+        verdict = f"The limit is exceeded: {chance_text(limit)} of the machines have the {output} {limit['side']} it"
+    interval, reach = None if is_tiny(limit) else limit["interval"], ""
+    if interval:
+        reach = f" (90 % interval {percent(interval[0])} to {percent(interval[1])}, the error of sampling alone)"
+    return f"{verdict}{reach}"
 
 
 def overlap(limited: Limited) -> Figure:
@@ -85,7 +96,8 @@ def overlap(limited: Limited) -> Figure:
     spans = [Span(mean - reach, mean + reach, "")] if reach else []
     panels.append(Panel(x=axis, y=Axis("case"), rows=rows, spans=spans, levels=levels))
     title = f"{axis.title[0].upper()}{axis.title[1:]} against its limit"
-    return Figure(f"{sentence(limit)}; bars to the median, lines and shade from 5 to 95 %", panels, title=title)
+    chance = f"{chance_text(limit)} of the machines {limit['side']} it"
+    return Figure(f"{chance}; bars to the median, lines and shade from 5 to 95 %", panels, title=title)
 
 
 def _densities(limit: dict[str, Any], axis: Axis) -> Panel:
@@ -138,10 +150,11 @@ def deciding(limited: Limited) -> Figure:
     panels = [Panel(x=Axis("machines whose worst case it is", "%"), y=Axis("case"), rows=rows)]
     most = max(rows, key=lambda row: row.value)
     finding = f"{most.name} in {number(most.value, '%')} of the machines"
-    strongest = sorted(limited.influences.items(), key=lambda title_and_rank: -abs(title_and_rank[1]))[:NAMED]
+    strongest = sorted(limited.influences.items(), key=lambda title_and_share: -title_and_share[1])[:NAMED]
     if strongest:
-        axis = Axis("rank correlation with the worst case")
-        panels.append(Panel(x=axis, y=Axis("tolerance"), rows=[Row(name, value) for name, value in strongest]))
+        axis = Axis("share of the worst case's variance that it explains alone", "%")
+        rows = [Row(name, 100.0 * value) for name, value in strongest]
+        panels.append(Panel(x=axis, y=Axis("tolerance"), rows=rows))
         finding += f"; {strongest[0][0]} matters most"
     return Figure(finding, panels, title="What decides")
 

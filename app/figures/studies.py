@@ -32,7 +32,7 @@ MOST_CURVES = 6  # if a sweep of two fields needs more curves, a map is drawn in
 FLAT = 0.5  # an axis does not start at zero if all values are above this share of the largest value
 MOST_ROWS = 12  # largest number of bars in a figure
 NAMED = 3  # largest number of inputs in the finding
-STAR = f"{NO_BREAK}*"
+ALIKE = 0.05  # share of its range by which both ends of an input may differ and still be one dot
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -265,31 +265,41 @@ class Lead(NamedTuple):
 
 
 class Influence(NamedTuple):
-    """The change of an output if an input is changed by one step.
+    """What an input does to an output over its tolerance: the changes with the input lowered and raised by one step.
 
-    `kink` is True if the output has different slopes below and above the value of the input.
+    A change is None without an answer. `range` is the largest minus the least output over the tolerance.
     """
 
     name: str
-    step: str
-    change: float
-    kink: bool
+    step: str  # of the input, without a sign
+    lowered: float | None
+    raised: float | None
+    range: float
 
 
 def influence(output: Axis, value: float, influences: list[Influence]) -> Figure:
-    """Draw a bar for the influence of each input, the most influential input first."""
-    moving = [item for item in influences if item.change][:MOST_ROWS]
+    """Draw a line for each input over the outputs at both ends of its tolerance, the most influential input first."""
+    moving = [item for item in influences if item.range][:MOST_ROWS]
     title = f"What moves the {output.title} most"
     if not moving:
         return Figure("nothing does", [], title=title)
-    rows = []
-    for item in moving:
-        name = f"{item.name}, {item.step.replace(' ', NO_BREAK)}{STAR if item.kink else ''}"
-        rows.append(Row(name, item.change, Hue.BLUE if item.change > 0.0 else Hue.VERMILLION))
-    kinks = f";{STAR} a step down changes it by another amount" if any(item.kink for item in moving) else ""
-    finding = f"{number(value, output.unit)} now; {listed([item.name for item in moving[:NAMED]])} first{kinks}"
-    axis = Axis(f"change of the {output.title} by one step up, from the steeper side", difference_unit(output.unit))
-    return Figure(finding, [Panel(x=axis, y=axis, rows=rows)], title=title)
+    rows = [Row(f"{item.name}, ±{item.step.replace(' ', NO_BREAK)}", item.range, dots=_ends(item)) for item in moving]
+    finding = (
+        f"{number(value, output.unit)} now; {listed([item.name for item in moving[:NAMED]])} first; − lowered, + raised"
+    )
+    axis = Axis(f"change of the {output.title} over the tolerance", difference_unit(output.unit), magnitude=False)
+    levels = [Level(0.0, "this case", vertical=True)]
+    return Figure(finding, [Panel(x=axis, y=Axis("input"), rows=rows, levels=levels)], title=title)
+
+
+def _ends(item: Influence) -> list[Row]:
+    """Return the dots of an input: one for each end of its tolerance, or one for both where they do the same."""
+    known = {sign: change for sign, change in (("−", item.lowered), ("+", item.raised)) if change is not None}
+    ends = [*known.values()]
+    if len(ends) == 2 and abs(ends[0] - ends[1]) < ALIKE * item.range:
+        return [Row("", 0.0, Hue.GREY), Row("±", max(ends, key=abs), Hue.VERMILLION)]
+    hues = {"−": Hue.BLUE, "+": Hue.VERMILLION}
+    return [Row("", 0.0, Hue.GREY), *(Row(sign, change, hues[sign]) for sign, change in known.items())]
 
 
 def corners(output: Axis, rows: list[Row], nominal: float | None) -> Figure:
@@ -336,8 +346,23 @@ def lead_chart(
     return Figure(finding, [panel], title="Lead chart of the pinion's working flank")
 
 
-def search(output: Axis, objectives: Sequence[float | None], *, greatest: bool) -> Figure:
-    """Draw the output at the worst corner for each of the corrections that a search has tried.
+def price(rows: Sequence[Row], finding: str) -> Figure:
+    """Draw the probability of damage for exact flanks and for each quality class, with its 90 % intervals."""
+    axis = Axis("probability of damage", "%")
+    panel = Panel(x=axis, y=Axis("quality class"), rows=rows)
+    return Figure(finding, [panel], title="What a tolerance of the flanks costs")
+
+
+def dominating(shares: dict[str, float]) -> Figure:
+    """Draw the share that each input has in the squared changes of the margin to damage, the largest first."""
+    rows = [Row(name, 100.0 * share) for name, share in shares.items()][:MOST_ROWS]
+    axis = Axis("share of the squared changes of the margin", "%")
+    finding = f"{rows[0].name} matters most" if rows else ""
+    return Figure(finding, [Panel(x=axis, y=Axis("input"), rows=rows)], title="What the damage depends on")
+
+
+def search(output: Axis, objectives: Sequence[float | None], *, greatest: bool, where: str) -> Figure:
+    """Draw the output for each of the corrections that a search has tried; `where` says at what each is judged.
 
     An item of `objectives` is the output of one correction; None if the calculation has no solution.
     """
@@ -347,8 +372,8 @@ def search(output: Axis, objectives: Sequence[float | None], *, greatest: bool) 
     lines = [Line("tried", order, reached, Hue.GREY, Role.REFERENCE), Line("best so far", order, so_far)]
     marks = [replace(mark, hue=Hue.BLUE) for mark in parts.extreme(lines[:1], output.unit, least=not greatest)]
     x = Axis("correction tried", magnitude=False)
-    y = replace(output, title=f"{output.title} at the worst corner", magnitude=False)
+    y = replace(output, title=f"{output.title} {where}", magnitude=False)
     panel = Panel(x=x, y=y, lines=lines, marks=marks)
     finding = f"from {number(float(reached[0]), output.unit)} to {number(float(so_far[-1]), output.unit, digits=4)}"
-    title = "What the search reached at the worst corner"
+    title = f"What the search reached {where}"
     return Figure(finding, [panel], title=title, unsolved=list(objectives).count(None))

@@ -48,12 +48,15 @@ VARY = StudyLink(
     "one input or two over a range: a curve or a map",
     _named(AXES, ("", ".from", ".to", ".count", ".scale")) | {"best"},
 )
-INFLUENCE = StudyLink("influence", "What matters", "every input moved by its tolerance: which moves the result most")
+INFLUENCE = StudyLink(
+    "influence", "What matters", "every input moved by its tolerance, down and up: which moves the result most"
+)
 SPECTRUM = StudyLink(
     "spectrum",
     "Load spectrum",
     "cases and tolerances: the probability of exceeding a limit, and the mean losses",
-    _named(TOLERANCES, ("", ".law", ".about", ".by")) | {CASES, "machines", "hours", "limit", "limit.side", "limit.by"},
+    _named(TOLERANCES, ("", ".law", ".about", ".by"))
+    | {CASES, "machines", "models", "hours", "limit", "limit.side", "limit.by"},
 )
 CORNERS = StudyLink(
     "corners",
@@ -65,8 +68,8 @@ CORNERS = StudyLink(
 DESIGN = StudyLink(
     "design",
     "What to grind",
-    "the flank correction whose worst corner is best",
-    frozenset(map(control_of, UNCERTAIN)) | _named(("low.", "high."), "01234") | {"trials"},
+    "the flank correction whose worst corner is best, and how exactly it must be ground",
+    frozenset(map(control_of, UNCERTAIN)) | _named(("low.", "high."), "01234") | {"trials", "judged", "drawn"},
     DRIVE_TRAIN,
 )
 LINKS = (VARY, INFLUENCE, SPECTRUM, CORNERS, DESIGN)

@@ -5,6 +5,9 @@ fields      functions that find, check, read and set a single value of a request
 points      the request that a study varies, and the solution of the study's points in a worker
 point_sets  sets of points: a grid, a list of cases, a random sample, the usual corners of a gear unit
 runner      the base class of the kinds of study, the solution of the points in chunks, the lines about the progress
+uncertainty how well the models are known, as distributions
+machines    the machines of a gear unit, drawn at random
+price       how probable damage is by quality class, for one correction
 statistics  statistics of samples, and probabilities of exceeding limits
 kinds       one module per kind of study
 kept        the points of former runs in a file

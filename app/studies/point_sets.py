@@ -16,7 +16,19 @@ from app.schema.model import Request
 from app.schema.quantities import split_unit
 from app.studies.fields import check_value, not_a_number
 from app.studies.points import BaseRequest, check_count, check_distinct
-from app.studies.requests import LARGEST, Axis, Lognormal, Method, Normal, Overrides, Range, Scalar, Scatter, Triangular
+from app.studies.requests import (
+    LARGEST,
+    Axis,
+    Listed,
+    Lognormal,
+    Method,
+    Normal,
+    Overrides,
+    Range,
+    Scalar,
+    Scatter,
+    Triangular,
+)
 from solvers.arrays import FloatArray
 from solvers.drive_train.uncertainty import uncertain_inputs
 from solvers.quantity import allowed
@@ -174,16 +186,16 @@ def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: st
             raise Unprocessable(
                 "not_continuous", f"{message}, so it cannot be drawn at random; list its values instead", f"{here}.path"
             )
-        if leaf.kind == "integer":
+        if leaf.kind == "integer" and not isinstance(scatter, Listed):
             raise Unprocessable(
                 "not_integer",
-                f"{scatter.path} is a whole number, so it cannot be drawn at random; list its values instead",
+                f"{scatter.path} is a whole number; list its values, with the distribution 'listed'",
                 here,
             )
         for name, value in anchors(scatter).items():
             check_value(leaf, value, f"{here}.{name}")
         for (low, least), (high, greatest) in pairwise(anchors(scatter).items()):
-            if least > greatest:
+            if least > greatest and not isinstance(scatter, Listed):
                 raise Unprocessable(
                     "out_of_range", f"{scatter.path}: the value of '{low}' is above the value of '{high}'", here
                 )
@@ -210,8 +222,11 @@ def _check_digits(scatter: Range | Scatter, leaf: Leaf, place: str) -> None:
 def anchors(scatter: Range | Scatter) -> dict[str, float]:
     """Return the parameters of a distribution that must be permissible values of its field, such as the mean.
 
-    The keys are the names of the parameters. In a valid distribution, the returned parameters are in ascending order.
+    The keys are the names of the parameters. In a valid distribution, the returned parameters are in ascending order,
+    unless its values are listed.
     """
+    if isinstance(scatter, Listed):
+        return {f"values.{place}": value for place, value in enumerate(scatter.values)}
     return {name: getattr(scatter, name) for name in ("min", "mode", "mean", "median", "max") if hasattr(scatter, name)}
 
 
@@ -242,7 +257,12 @@ class Cut(NamedTuple):
         return low + 1.0 - high if self.low < self.high else 0.0
 
 
-def cut(scatter: Range | Scatter, leaf: Leaf) -> Cut:
+def cut_off(scatter: Range | Scatter, leaf: Leaf) -> float:
+    """Return the share of a distribution that is cut off; listed values are not cut."""
+    return 0.0 if isinstance(scatter, Listed) else cut(scatter, leaf).cut_off
+
+
+def cut(scatter: Range | Normal | Lognormal, leaf: Leaf) -> Cut:
     """Return the distribution of a field, cut off at the limits of the field's permissible range.
 
     Normal and lognormal distributions are also cut off at four standard deviations.
@@ -274,8 +294,13 @@ def drawn(scatters: Sequence[Range | Scatter], leaves: Sequence[Leaf], cube: Flo
 
     A coordinate of a point in the cube is the cumulative probability of the value of a field.
     """
-    columns = zip(scatters, leaves, cube.T, strict=True)
-    return np.column_stack([cut(scatter, leaf).drawn(share) for scatter, leaf, share in columns])
+    columns = []
+    for scatter, leaf, share in zip(scatters, leaves, cube.T, strict=True):
+        if isinstance(scatter, Listed):
+            columns.append(np.array(scatter.values)[np.searchsorted(scatter.ends[:-1], share, side="right")])
+        else:
+            columns.append(cut(scatter, leaf).drawn(share))
+    return np.column_stack(columns)
 
 
 def unit_cube(method: Method, count: int, dimensions: int, seed: Any, place: str) -> FloatArray:

@@ -26,6 +26,7 @@ from solvers.quantity import UNITS, quantities
 Status = Literal["ok", "ok_with_warnings", "no_solution", "refused", "failed"]
 SOLVED = ("ok", "ok_with_warnings")  # statuses of points that have an answer
 COLD = "states.cold."
+BAND = "heat.band."
 
 LEAST_FLOW, MOST_FLOW = (quantities(Cooling)["gear_flow"].bounds[end] for end in ("ge", "le"))
 
@@ -134,10 +135,12 @@ def needs_film(endpoint: str, output: str) -> bool:
 
 
 def reduced_request(endpoint: str, request: dict[str, Any], outputs: Sequence[str]) -> dict[str, Any]:
-    """Return a request without what no output needs: the thermal film and the gear unit in the cold state."""
+    """Return a request without what no output needs: thermal film, cold state of the unit, band of the heat balance."""
     if BY_PATH[endpoint].words.of_the_film is None:
         return request
     reduced = copy.deepcopy(request)
+    if not any(path.startswith(BAND) for path in outputs):
+        set_value(BY_PATH[endpoint].request, reduced, "cooling.band", False)
     if not any(needs_film(endpoint, path) for path in outputs):
         set_value(BY_PATH[endpoint].request, reduced, "model.lubrication", "closed_form")
     if not any(path.startswith(COLD) for path in outputs):

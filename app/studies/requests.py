@@ -1,6 +1,7 @@
 """Common parts of the bodies of studies: paths and values of fields, axes, distributions, and the request to vary."""
 
 import re
+from itertools import accumulate
 from typing import Annotated, Any, ClassVar, Literal, Self
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema, model_validator
@@ -161,7 +162,33 @@ class Lognormal(Spread):
     ]
 
 
-Scatter = Normal | Lognormal | Uniform | Triangular
+class Listed(Spread):
+    """Values listed one by one, such as the load stages of a test, each with its weight."""
+
+    distribution: Annotated[Literal["listed"], KIND]
+    values: Annotated[list[float], Field(min_length=1, max_length=100), Input("values", text="the values one by one")]
+    weights: Annotated[
+        list[Annotated[float, Field(gt=0.0, le=LARGEST)]] | None,
+        Input("weights", text="how often each value occurs, relative to the others", default_text="equal weights"),
+    ] = None
+
+    @model_validator(mode="after")
+    def one_weight_per_value(self) -> Self:
+        """Refuse weights whose number is not that of the values."""
+        if self.weights is not None and len(self.weights) != len(self.values):
+            raise PydanticCustomError("weights", "Give one weight for each value, or no weights")
+        return self
+
+    @property
+    def ends(self) -> list[float]:
+        """Cumulative share at each value; the last is 1."""
+        weights = self.weights or [1.0] * len(self.values)
+        largest = max(weights)
+        sums = list(accumulate(weight / largest for weight in weights))
+        return [each / sums[-1] for each in sums]
+
+
+Scatter = Normal | Lognormal | Uniform | Triangular | Listed
 Inputs = Annotated[list[Annotated[Scatter, Field(discriminator="distribution")]], Field(min_length=1, max_length=50)]
 Method = Literal["latin_hypercube", "sobol"]
 Seed = Annotated[int, Input("seed", text="equal seeds give equal points", ge=0, le=2**32 - 1)]

@@ -20,6 +20,13 @@ from solvers.arrays import FloatArray
 CONFIDENCE = 0.9  # confidence of all intervals
 QUANTILES = (0.05, 0.5, 0.95)  # the median and the usual tails of 5 %
 MODERATE, HIGH = 0.1, 0.3  # probabilities between low, moderate and high risk, AGMA 925-A03
+RELATIVE_DEVIATION = 0.15  # AGMA 925-A03; taken from a secondary source and not compared with the standard
+ASSUMED_DEVIATION = (
+    "the scuffing temperature is assumed to be normally distributed, with a standard deviation of 0.15 times its mean "
+    "(AGMA 925-A03, secondary source)"
+)
+LEAST_LIMIT = 1e-9  # share of the typical limit below which the deviation of a limit does not fall, chosen
+LEAST_DEGREE, MOST_DEGREE = 2, 4  # of polynomials in an input; 2 sees what is symmetric, 4 is enough for one kink
 MOST_BINS = 40  # largest number of bins of a histogram that a user can read
 
 Side = Literal["above", "below"]
@@ -27,34 +34,50 @@ Risk = Literal["low", "moderate", "high"]
 
 
 class Limit(NamedTuple):
-    """A limit on an output, either fixed or normally distributed.
+    """A limit on one output, fixed (`deviation` 0) or normally distributed about `mean`.
 
-    Values above the limit are bad if `side` is `above`; values below the limit are bad if `side` is `below`. A fixed
-    limit has the `deviation` 0.
+    Values above the limit are bad if `side` is `above`; values below it if `side` is `below`. `own` holds the limit of
+    each output where machines or cases have limits of their own, an array like that of the outputs; `mean` is then
+    typical of them, and the deviation is the same share of each.
     """
 
     side: Side
     mean: float
     deviation: float
     output: str = ""
+    own: FloatArray | None = None
 
-    def exceeded(self, output: FloatArray) -> FloatArray:
-        """Return, for each value of the output, the probability that this value is beyond the limit.
+    @property
+    def is_fixed(self) -> bool:
+        """Whether the limit has no scatter."""
+        return self.deviation == 0.0
 
-        If the limit is normally distributed, the probability follows from the distribution of the limit. If the limit
-        is fixed, the probability is 0 or 1. If the value is NaN, the probability is NaN.
+    def of_case(self, place: int) -> "Limit":
+        """Return the limit of one case, with a last axis of one case."""
+        return self if self.own is None else self._replace(own=self.own[..., place : place + 1])
+
+    def margins(self, outputs: FloatArray) -> FloatArray:
+        """Return how far each output is beyond the limit, in standard deviations of the limit if it has one."""
+        limit = self.mean if self.own is None else self.own
+        beyond = outputs - limit if self.side == "above" else limit - outputs
+        if self.is_fixed:
+            return np.asarray(beyond)
+        share = 1.0 if self.own is None else np.maximum(np.abs(self.own / self.mean), LEAST_LIMIT)
+        return np.asarray(beyond / (self.deviation * share))
+
+    def exceeded(self, outputs: FloatArray) -> FloatArray:
+        """Return, for each output, the probability that it is beyond the limit: 0 or 1 if the limit is fixed.
+
+        NaN where the output is NaN.
         """
-        beyond = output - self.mean if self.side == "above" else self.mean - output
-        if self.deviation > 0.0:
-            return np.asarray(ndtr(beyond / self.deviation))
-        return np.where(np.isnan(beyond), np.nan, beyond > 0.0)
+        margins = self.margins(outputs)
+        return np.where(np.isnan(margins), np.nan, margins > 0.0) if self.is_fixed else np.asarray(ndtr(margins))
 
     def worst(self, outputs: FloatArray) -> FloatArray:
-        """Return the worst value along the last axis, which is the axis of the cases.
-
-        Unsolved cases are ignored. The worst value is NaN if no case is solved.
-        """
-        return np.asarray((np.fmax if self.side == "above" else np.fmin).reduce(outputs, axis=-1))
+        """Return the output farthest beyond its limit along the last axis, that of the cases; NaN if none is solved."""
+        margins = self.margins(outputs)
+        place = np.where(np.isnan(margins), -np.inf, margins).argmax(axis=-1, keepdims=True)
+        return np.asarray(np.take_along_axis(outputs, place, axis=-1)[..., 0])
 
 
 class Mean(NamedTuple):
@@ -102,7 +125,8 @@ def mean_over_replicates(values: FloatArray) -> Mean:
 
 def of_spectrum(outputs: FloatArray, limit: Limit) -> Estimate:
     """Return the probability that the worst case of a machine is beyond the limit."""
-    good = np.nan_to_num(limit.exceeded(limit.worst(outputs)), nan=0.0)
+    # The limit of a machine is one property of oil and material: its case farthest beyond decides.
+    good = np.nan_to_num(np.fmax.reduce(limit.exceeded(outputs), axis=-1), nan=0.0)
     unsolved = np.isnan(outputs).any(axis=-1)
     low, high = (_chances(chances, limit) for chances in (good, np.where(unsolved, 1.0, good)))
     errors = [side.standard_error for side in (low, high) if side.standard_error is not None]
@@ -139,7 +163,7 @@ def _chances(chances: FloatArray, limit: Limit) -> Mean:
     from scipy.stats import binomtest  # noqa: PLC0415  half a second that only studies need
 
     probability, draws = mean_over_replicates(chances), chances.size
-    if limit.deviation == 0.0 and draws > 1:
+    if limit.is_fixed and draws > 1:
         events = round(probability.mean * draws)
         if min(events, draws - events) < len(chances) or not probability.standard_error:
             side: Literal["less", "greater", "two-sided"]
@@ -153,15 +177,16 @@ def _chances(chances: FloatArray, limit: Limit) -> Mean:
 
 
 def deciding(outputs: FloatArray, limit: Limit) -> list[float] | None:
-    """Return, for each of the cases, the fraction of draws in which this case is the worst.
+    """Return, for each of the cases along the last axis, the fraction of draws in which this case is the worst.
 
     A draw is one machine, which runs every case. If several cases of a draw share the worst value, the draw is
     divided equally among these cases. Draws with an unsolved case are left out. If no draws remain, the result is None.
     """
-    complete = outputs[~np.isnan(outputs).any(axis=-1)]
+    margins = limit.margins(outputs)
+    complete = margins[~np.isnan(margins).any(axis=-1)]
     if not complete.size:
         return None
-    is_worst = complete == limit.worst(complete)[:, np.newaxis]
+    is_worst = complete == complete.max(axis=-1, keepdims=True)
     return [float(share) for share in (is_worst / is_worst.sum(axis=1, keepdims=True)).mean(axis=0)]
 
 
@@ -217,19 +242,44 @@ def rank_correlation(x: FloatArray, y: FloatArray) -> float | None:
     return float(spearmanr(x, y).statistic)
 
 
+def variance_shares(inputs: FloatArray, output: FloatArray) -> list[float | None]:
+    """Share of the variance of an output that each input explains alone: first-order Sobol indices, from one sample.
+
+    The output is fitted by polynomials in each input up to degree 4, or as far as the sample allows; what noise adds to
+    a fit is subtracted. A share sees effects of the same sign on both sides of the middle, which a rank correlation
+    does not; what inputs do together is left out. None for an input that is constant, and for all if the output is
+    constant or the sample is too small for degree 2.
+    """
+    count, shares = len(output), list[float | None]([None] * inputs.shape[1])
+    varied = [place for place, column in enumerate(inputs.T) if count and np.ptp(column) > 0.0]
+    degree = min(MOST_DEGREE, (count // 2 - 1) // max(len(varied), 1))
+    if degree < LEAST_DEGREE or not np.ptp(output) > 0.0:
+        return shares
+    low, high = inputs[:, varied].min(axis=0), inputs[:, varied].max(axis=0)
+    scaled = (2.0 * inputs[:, varied] - low - high) / (high - low)
+    bases = [np.polynomial.legendre.legvander(own, degree)[:, 1:] for own in scaled.T]
+    matrix = np.column_stack([np.ones(count), *bases])
+    fitted, *_ = np.linalg.lstsq(matrix, output)
+    noise = float(np.square(output - matrix @ fitted).sum()) / (count - matrix.shape[1])
+    for number, (place, basis) in enumerate(zip(varied, bases, strict=True)):
+        own = float(np.var(basis @ fitted[1 + degree * number : 1 + degree * (number + 1)])) - noise * degree / count
+        shares[place] = min(max(own / float(np.var(output)), 0.0), 1.0)
+    return shares
+
+
 def of_sample(
     inputs: FloatArray, outputs: FloatArray, input_paths: list[str], output_paths: Sequence[str]
 ) -> dict[str, Any]:
     """Return the statistics of each output of a random sample.
 
-    The statistics are quantiles with bounds, and the rank correlation of the output with each input. Each row of
-    `inputs` and `outputs` is a point. The bounds of a quantile are two values of the sample. The quantile lies between
-    these two values with 90 % confidence, whatever the distribution is. A bound is None if the sample is too small for
-    this bound. This function runs in a worker.
+    The statistics are quantiles with bounds, and for each input the rank correlation with the output and the share of
+    the variance that it explains. Each row of `inputs` and `outputs` is a point. The bounds of a quantile are two
+    values of the sample. The quantile lies between these two values with 90 % confidence, whatever the distribution is.
+    A bound is None if the sample is too small for this bound. This function runs in a worker.
     """
     from scipy.stats import quantile_test  # noqa: PLC0415  half a second that only random samples need
 
-    content: dict[str, Any] = {"quantiles": {}, "quantile_bounds": {}, "rank_correlation": {}}
+    content: dict[str, Any] = {"quantiles": {}, "quantile_bounds": {}, "rank_correlation": {}, "variance_share": {}}
     for path, column in zip(output_paths, outputs.T, strict=True):
         has_value = ~np.isnan(column)
         if has_value.any():
@@ -241,4 +291,6 @@ def of_sample(
             content["rank_correlation"][path] = {
                 name: rank_correlation(own[has_value], values) for name, own in zip(input_paths, inputs.T, strict=True)
             }
+            shares = variance_shares(inputs[has_value], values)
+            content["variance_share"][path] = dict(zip(input_paths, shares, strict=True))
     return content

@@ -21,16 +21,18 @@ from solvers.quantity import UNITS
 BY_CLASS = "by quality class"  # the reasons of assumptions begin with these words
 
 
-def class_tolerances(request: Request) -> dict[str, float]:
+def class_tolerances(request: Request, quality_class: int | None = None) -> dict[str, float]:
     """Return three standard deviations [um] of each field that scatters by the class, by its path; none without one.
 
-    Raises Unprocessable if the gears are beyond the limits of the standard.
+    `quality_class` stands for the class of the gears. Raises Unprocessable if the gears are beyond the limits of the
+    standard.
     """
-    if value_at(request, "gears.quality_class") is None:
+    own = value_at(request, "gears.quality_class") if quality_class is None else quality_class
+    if own is None:
         return {}
     try:
         # The fillet has no tolerance of the class; a request may leave its default to the calculation.
-        pair = flank_tolerances(request.gears.si(GearPairInputs, rack_tip_radius=RACK_A))
+        pair = flank_tolerances(request.gears.si(GearPairInputs, rack_tip_radius=RACK_A, quality_class=own))
     except InvalidInput as error:
         raise Unprocessable(error.code, error.message, f"request.gears.{error.field}") from error
     assert pair is not None

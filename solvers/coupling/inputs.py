@@ -144,7 +144,7 @@ class Operation:
     """
 
     torque: float = quantity(
-        "transmitted torque", "T", PAHL, unit="n_m", ge=0, le=1e8, tolerance=1, relative_tolerance=0.01
+        "transmitted torque", "T", PAHL, unit="n_m", ge=0, le=1e8, tolerance=1, relative_tolerance=0.05
     )
     speed: float = quantity(
         "speed",
@@ -270,10 +270,18 @@ class MixedFrictionCurve:
         default=0.1,
         ge=1e-4,
         le=2,
+        relative_tolerance=0.3,
         text="coefficient at rest, and the most at high velocity",
     )
     lowest: float = quantity(
-        "lowest mixed friction", "μ_min", f"{PAHL}, Fig. 9", default=0.05, ge=1e-4, le=2, text="least coefficient"
+        "lowest mixed friction",
+        "μ_min",
+        f"{PAHL}, Fig. 9",
+        default=0.05,
+        ge=1e-4,
+        le=2,
+        relative_tolerance=0.3,
+        text="least coefficient",
     )
     velocity: float = quantity(
         "velocity of least friction",
@@ -310,7 +318,13 @@ class MixedFrictionTable:
         relative_tolerance=0.01,
     )
     coefficient: tuple[float, ...] = quantity(
-        "table of coefficients of friction", "μ", ge=1e-4, le=2, length=(1, 1000), text="coefficients of friction"
+        "table of coefficients of friction",
+        "μ",
+        ge=1e-4,
+        le=2,
+        length=(1, 1000),
+        relative_tolerance=0.3,
+        text="coefficients of friction",
     )
 
 
@@ -331,6 +345,7 @@ class Friction:
             "steadily from mixed friction to the paper's 0.1 so that the thrust does not jump"
         ),
         tolerance=0.02,
+        relative_tolerance=0.3,
     )
     static_coefficient: float | None = quantity(
         "coefficient of friction at rest",
@@ -342,6 +357,7 @@ class Friction:
         default_text="the given coefficient; without one, that of the law at rest without a film",
         assumed="0.16, the law of the friction regime at rest without a film",
         tolerance=0.02,
+        relative_tolerance=0.3,
     )
     mixed_law: MixedFrictionTable | None = quantity(
         "table of mixed friction",

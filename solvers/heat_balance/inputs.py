@@ -379,10 +379,10 @@ class Cooling:
 
     @property
     def states_anything(self) -> bool:
-        """Whether any input differs from its default; one that is given and equals the default does not."""
+        """Whether any input of the cooling differs from its default; one that is given and equals it does not."""
         used = replace(self, wetting_share=self.wetting, rewetting_share=self.rewetting, fling_off_factor=self.factor)
         plain = Cooling(wetting_share=WETTING_SHARE, rewetting_share=REWETTING_SHARE, fling_off_factor=FLING_OFF_FACTOR)
-        return replace(used, other=self.other or None) != plain
+        return replace(used, other=self.other or None, band=True) != plain
 
     def check(self) -> None:
         """Refuse (`exclusive`) two measurements of one gear, or shares and losses given besides measurements."""

@@ -44,7 +44,7 @@ class Load:
     """
 
     pinion_torque: float | None = quantity(
-        "pinion torque", "T_1", XUE, unit="n_m", ge=0, le=1e7, tolerance=1, relative_tolerance=0.01
+        "pinion torque", "T_1", XUE, unit="n_m", ge=0, le=1e7, tolerance=1, relative_tolerance=0.05
     )
     power: float | None = quantity(
         "transmitted power",
@@ -56,7 +56,7 @@ class Load:
         ge=0,
         le=1e6,
         tolerance=0.1,
-        relative_tolerance=0.01,
+        relative_tolerance=0.05,
     )
     pinion_speed: float = quantity("pinion speed", "n_1", XUE, unit="rpm", ge=0.1, le=2e5)
     application_factor: float = quantity(
@@ -66,6 +66,7 @@ class Load:
         default=1.0,
         ge=0.1,
         le=10,
+        relative_tolerance=0.1,
         text="multiplies the load of the contacts",
         assumed="1, driver and machine add no shocks to the load",
     )
@@ -446,6 +447,7 @@ class LoadDistributionInputs:
         ge=0,
         le=1,
         tolerance=0.01,
+        relative_tolerance=0.3,
         assumed="0.06, the paper's; the scuffing check computes it from the oil, which this check does not know",
     )
     model: Model = field(default_factory=Model)
@@ -832,6 +834,16 @@ class ScuffingInputs:
         default="2017",
         text="2017: ISO/TS 6336-20 and -21, X_R = Ra^0.25; 2000: ISO/TR 13989 as programs print it, X_R = Ra^0.5",
         advanced=True,
+    )
+    friction_factor: float = quantity(
+        "factor on the friction by law",
+        "f_μ",
+        default=1.0,
+        ge=0.1,
+        le=10,
+        relative_tolerance=0.3,
+        text="on the coefficients that follow from the oil, of flash, losses and film; a given one is not multiplied",
+        folded=True,
     )
 
     @property

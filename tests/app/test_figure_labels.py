@@ -199,16 +199,17 @@ def test_maps_side_by_side_name_a_common_ordinate_once() -> None:
         assert image.count(">profile (0: A, 1: E)<") == count
 
 
-def test_rows_of_long_names_are_whole_and_in_the_hue_of_their_sign() -> None:
+def test_rows_of_long_names_are_whole_and_have_a_dot_at_each_end() -> None:
     output = Axis("scuffing safety on the flank by Blok", symbol="S_B")
     steps = [
-        Influence(f"radial clearance of the bearing {each}, wheel shaft", "+15 µm", change, kink=True)
-        for each, change in enumerate((0.26, -0.087, 0.079, -0.0378))
+        Influence(f"radial clearance of the bearing {each}, wheel shaft", "15 µm", lowered, raised, 0.3)
+        for each, (lowered, raised) in enumerate(((-0.2, 0.1), (0.1, -0.1), (-0.13, -0.13), (None, 0.05)))
     ]
     bars = influence(output, 2.19, steps)
     assert not list(faults(bars))
     (panel,) = bars.panels
-    assert [row.hue for row in panel.rows] == [Hue.BLUE, Hue.VERMILLION, Hue.BLUE, Hue.VERMILLION]
+    named = [[(dot.name, dot.value) for dot in row.dots if dot.name] for row in panel.rows]
+    assert named == [[("−", -0.2), ("+", 0.1)], [("−", 0.1), ("+", -0.1)], [("±", -0.13)], [("+", 0.05)]]
     dots = [Row("165, 135 µm", 1.62, Hue.VERMILLION), Row("135, 165 µm", 1.87)]
     assert not list(faults(corners(output, [Row(each.name, 1.62, dots=dots) for each in steps], 2.19)))
 

@@ -40,11 +40,11 @@ def result_of(found: Asked) -> tuple[list[dict[str, Any]], str]:
 def test_the_table_says_what_the_study_says(name: str) -> None:
     found = asked(name)
     lines, page = result_of(found)
-    moved = [line for line in lines[:-1] if line["change"] is not None]
+    moved = [line for line in lines[:-1] if line["range"] is not None]
     rows = re.findall(r'<tr><td><a href="([^"]+)">([^<]+)</a></td>(.*?)</tr>', page, re.DOTALL)
     assert len(rows) == min(len(moved), MOST_ROWS)
     for line, (address, _, cells) in zip(moved, rows, strict=False):
-        assert f">{shown(line['change'], 4)}<" in cells
+        assert all(f">{shown(line[name], 4)}<" in cells for name in ("lowered", "raised", "range"))
         assert f">{shown(line['elasticity'], 3)}<" in cells
         curve = asked_by(address)
         assert (curve.path, curve.pairs) == (f"{found.path}/vary", found.pairs)
@@ -64,10 +64,10 @@ def test_the_figure_shows_the_most_influential_first() -> None:
 def test_a_case_without_the_output_says_so() -> None:
     study = checked(SensitivityPage, asked(COUPLING))
     *lines, end = lines_of(study)
-    nothing = [{**line, "change": None, "derivative": None} for line in lines]
+    nothing = [{**line, "range": None, "derivative": None} for line in lines]
     without = {**end, "outputs": [{**end["outputs"][0], "value": None}]}
     assert "The case has no value of the thrust to be held" in whole(study, [*nothing, without])
-    still = [{**line, "change": 0.0, "derivative": 0.0} for line in lines]
+    still = [{**line, "range": 0.0, "derivative": 0.0} for line in lines]
     assert "No input changes the thrust to be held" in whole(study, [*still, end])
 
 

@@ -14,6 +14,7 @@ import pytest
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
 from app.errors import Unprocessable
 from app.examples import examples, study_bodies
+from app.figures.spectrum import chance_text
 from app.pages.query import pairs_of
 from app.pages.studies import page as pages
 from app.pages.studies.load_cases import cases_of, table_of
@@ -174,6 +175,7 @@ def test_customers_read_where_a_limit_comes_from(client: httpx.Client, name: str
         assert (">given</td>" in stated) is (name == "coupling")
 
 
+TITLE = "coaxial thrust limit"
 SAID = {
     "cases": "name;share;operation.torque_n_m\nlow;0.5;3000\nhigh;0.5;4500",
     "t0": "friction.coefficient",
@@ -190,8 +192,10 @@ SAID = {
 def test_the_page_shows_what_the_study_says() -> None:
     lines, page = studied(checked(SpectrumPage, asked(COUPLING, **SAID)))
     (limit,) = lines[-1]["limits"]
-    assert "robability of being above the limit" in page
-    assert f"{limit['risk']} risk" in page
+    assert "The limit is exceeded: " in page
+    assert "the error of sampling alone" in page
+    assert f"{chance_text(limit)} of the machines have the {TITLE} above it" in unescape(page)
+    assert "risk" not in page, "a thrust has no risk of scuffing"
     for name in ("limit", "probability", "decides", "losses"):
         assert f'id="figure-{name}"' in page
     rows = re.findall(r'<tr><td><a href="([^"]+)">(low|high)</a></td>', page)
@@ -205,6 +209,42 @@ def test_no_name_of_a_case_is_a_formula_in_a_spreadsheet() -> None:
     assert b"\n'=1+1," in pages.file(study, told(study), "losses", "csv")
 
 
+def test_listed_values_and_their_weights_are_typed_with_semicolons() -> None:
+    said = {
+        "t0": "coupling.teeth",
+        "t0.law": "listed",
+        "t0.about": "40; 50; 60",
+        "t0.by": "1; 2; 1",
+        "cases": "name\na",
+    }
+    study = checked(SpectrumPage, asked(COUPLING, **said)).study
+    (scatter,) = study.body.tolerances.inputs
+    assert (scatter.values, scatter.weights) == ([40, 50, 60], [1, 2, 1])
+    address = address_of(study_calculation(), CASE, study.body.model_dump())
+    views = asked_by(address).views
+    assert {name: views[name] for name in said if name != "cases"} == {
+        name: said[name] for name in said if name != "cases"
+    }
+    assert (
+        checked(SpectrumPage, asked(COUPLING, **said | {"t0.by": ""})).study.body.tolerances.inputs[0].weights is None
+    )
+
+
+def study_calculation() -> Calculation:
+    return BY_PATH["/v1/coupling"]
+
+
+def test_one_click_draws_the_uncertainty_of_the_models() -> None:
+    said = {"cases": "name\na", "show": "axial_thrust.coaxial_limit_n", "limit": "5000", "limit.by": "400"}
+    study = checked(SpectrumPage, asked(COUPLING, **said))
+    page = whole(study, told(study))
+    (address,) = re.findall(r'href="([^"]+)">Draw the uncertainty of the models too', page)
+    found = asked_by(unescape(address))
+    drawn = checked(SpectrumPage, replace(found, path=found.path.removesuffix("/spectrum")))
+    assert [leaf.path for leaf in drawn.study.scattering] == ["friction.coefficient"]
+    assert "Draw the uncertainty" not in whole(drawn, told(drawn))
+
+
 @pytest.mark.ci
 def test_a_probability_that_nobody_knows_is_no_number() -> None:
     """The limit is so far away that the computed probability has no meaning."""
@@ -212,7 +252,7 @@ def test_a_probability_that_nobody_knows_is_no_number() -> None:
     lines, page = studied(checked(SpectrumPage, asked(COUPLING, **{**SAID, "limit": "20000"})))
     (limit,) = lines[-1]["limits"]
     assert 0.0 < limit["probability"] < 1e-9
-    assert "robability of being above the limit below 0.001 %: low risk" in page
+    assert "The limit holds: below 0.001 % of the machines" in page
     assert "The probability of violating the limit is below 0.001 % for the whole spectrum" in page
     assert 'id="figure-probability"' not in page
 

@@ -11,14 +11,17 @@ import pytest
 
 from app.calculations import BY_PATH
 from app.figures.data import Hue
+from app.figures.spectrum import chance_text
 from app.pages.cases import Asked, solved
 from app.pages.studies import page as pages
 from app.pages.studies.corners import CornersPage
 from app.pages.studies.design import HELICES, DesignPage
 from app.pages.studies.page import StudyPage
+from app.pages.studies.price import price_figures, price_remarks, price_tables, price_verdict
 from app.pages.studies.sensitivity import SensitivityPage
 from app.pages.study_links import study_links
 from app.pages.typesetting import shown
+from app.studies.price import coarsest
 from tests.support.pages import asked, asked_by, checked, lines_of, opened, whole
 
 UNIT, DOUBLE = "starter-generator-gear-drive-train", "starter-turbo-double-helical"
@@ -33,7 +36,7 @@ def small(**said: str) -> Asked:
 
 @cache
 def studied(page: type[StudyPage]) -> tuple[StudyPage, list[dict[str, Any]], str]:
-    study = checked(page, small(trials="5") if page is DesignPage else asked(UNIT))
+    study = checked(page, small(trials="5", drawn="2") if page is DesignPage else asked(UNIT))
     lines = lines_of(study)
     return study, lines, whole(study, lines)
 
@@ -102,7 +105,7 @@ def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> 
     sheet = rows_of(page, "What to grind")
     assert [row[0] for row in sheet] == ["pinion", "pinion", "pinion", "wheel"]
     assert [row[4] for row in sheet] == [shown(abs(value), 4) for value in wanted["at"].values()]
-    worst, nominal = rows_of(page, "What it brings")
+    worst, nominal, by_class, fixed = rows_of(page, "What it brings")
     assert worst[1:3] == [shown(end["objective_start"]), shown(wanted["objective"])]
     grindings: tuple[dict[str, Any], ...] = ({}, wanted["at"])
     cases = [study.solved(at).response.safety.blok_flank for at in grindings]
@@ -114,8 +117,8 @@ def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> 
     assert numbers["best at the worst corner"] == shown(end["best"][SLOPE], 4)
     assert numbers["to grind"] == shown(wanted["at"][SLOPE], 4)
     result = study.result(lines)
-    assert list(result.figures) == ["lead", "face-load", "gap", "search"], "the search comes last"
-    assert set(result.figures) == set(DesignPage.figures)
+    assert list(result.figures) == ["price", "lead", "face-load", "gap", "search"], "the search comes last"
+    assert set(result.figures) | {"dominating"} == set(DesignPage.figures)
     reached = result.figures["search"].panels[0].lines[0].y.tolist()
     assert reached == [line["objective"] for line in lines if line["type"] == "trial"]
     pairs = dict(asked_by(result.leads[0].address).pairs)
@@ -123,6 +126,71 @@ def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> 
     assert result.leads[2].address.startswith("/drive-train/corners?")
     at_worst = study.solved({**wanted["at"], **wanted["worst_corner"]}).response
     assert at_worst.safety.blok_flank == wanted["objective"]
+
+    price = end["price"]
+    own = next(row for row in price["classes"] if row["quality_class"] == price["reference_class"])
+    assert by_class[1:3] == [chance_text(price["as_described"]), chance_text(own)]
+    assert fixed[2] == chance_text(price["nominal"])
+
+
+@pytest.mark.ci
+def test_how_exactly_to_grind_is_said_first_with_its_numbers() -> None:
+    study, lines, page = studied(DesignPage)
+    price = lines[-1]["price"]
+    result = study.result(lines)
+    exact, *rows = rows_of(page, "How exactly to grind")
+    assert exact[0] == "exact"
+    assert exact[3] == chance_text(price["exact"])
+    assert [row[0] for row in rows] == ["3", "4", "5", "6", "7"]
+    assert [row[3] for row in rows] == [chance_text(row) for row in price["classes"]]
+    found = price["coarsest_class"]
+    assert result.answer.startswith("Not even class 3" if found is None else f"Class {found} is exact enough: ")
+    if found is not None:
+        wide = next(row["tolerances"]["helix_slope_um"] for row in price["classes"] if row["quality_class"] == found)
+        assert rows_of(page, "What to grind")[0][5] == f"± {shown(wide, 3)}"
+
+
+def priced(more: tuple[float | None, ...], chance: float = 0.04) -> dict[str, Any]:
+    """A price with these additional costs of classes 3, 4, ..."""
+
+    def row(probability: float, **parts: Any) -> dict[str, Any]:
+        own = {"probability": probability, "bounds": (probability, probability), "interval": None, "unsolved": 0.0}
+        return {**own, "kinds": {"scuffing": own}, **parts}
+
+    classes = [
+        row(
+            chance * (1.0 + (each or 0.0)),
+            quality_class=3 + place,
+            more=each,
+            more_error=0.01,
+            tolerances={"helix_slope_um": 7.0 + place, "profile_slope_um": 5.0},
+        )
+        for place, each in enumerate(more)
+    ]
+    found, is_open = coarsest(classes)
+    said = {"machines": 64, "reference_class": 5, "coarsest_class": found, "undecided": is_open, "influences": []}
+    return {"exact": row(chance), "classes": classes, **said}
+
+
+@pytest.mark.parametrize(
+    ("more", "verdict"),
+    [
+        ((0.01, 0.05, 0.5), "Class 4 is exact enough: damage is 4.2 % probable, with exact flanks 4 %, because ±8 µm"),
+        ((0.2, 0.5), "Not even class 3 is enough: damage is 4.8 % probable, 20 % more than with exact flanks (4 %)."),
+        ((None, None), "Any of these classes is enough: even with exact flanks damage is 4 % probable."),
+    ],
+)
+def test_the_verdict_on_the_tolerance(more: tuple[float | None, ...], verdict: str) -> None:
+    found = priced(more)
+    assert price_verdict(found).startswith(verdict)
+    assert price_figures(found)["price"].panels[0].rows[0].value == pytest.approx(4.0)
+    assert price_tables(found)[0].rows[0][0] == "exact"
+    assert not price_remarks(found)
+
+
+def test_a_verdict_that_sampling_leaves_open_says_so() -> None:
+    (remark,) = price_remarks(priced((0.02, 0.095)))
+    assert "leaves open" in remark
 
 
 @pytest.mark.ci
@@ -154,14 +222,14 @@ def test_two_helices_have_a_correction_each_and_the_thrust_counts() -> None:
 @pytest.mark.ci
 def test_the_sheet_has_both_helices() -> None:
     """Each lead chart is lowest at the end that the sheet names for its helix."""
-    said = {"trials": "1", "corner.thrust_fraction": "1", "corner.offset": "0 400"}
+    said = {"trials": "1", "drawn": "1", "corner.thrust_fraction": "1", "corner.offset": "0 400"}
     start = asked(DOUBLE, **said)
     given = {"temperatures.bulk_c": "95", "effects.thermal": "false", HELICES[1][0]: "-6"}
     pairs = [pair for pair in start.pairs if not pair[0].startswith("cooling") and pair[0] not in given]
     study = checked(DesignPage, Asked(start.path, [*pairs, *given.items()], said))
     lines = lines_of(study)
     result = study.result(lines)
-    sheet, _ = result.first
+    sheet, *_ = result.first
     assert [str(row[0]) for row in sheet.rows] == [
         *["pinion, helix 1"] * 2,
         *["pinion, helix 2"] * 2,
@@ -191,6 +259,7 @@ def test_the_best_so_far_is_shown_while_the_search_runs_and_when_it_ends_early()
         assert [row[2] for row in corrections] == [shown(value, 4) for value in best["at"].values()]
         assert judged[1:3] == [shown(trials[0]["objective"]), shown(best["objective"])]
         assert "Open the unit ground so" in text
+        assert "Correction 3 of at most 5" in text
     assert "9 of " in pages.drawn(study, [], 9).decode()
 
 
@@ -211,6 +280,9 @@ def test_corners_are_those_typed_on_both_pages() -> None:
 def test_ranges_and_trials_come_from_the_form() -> None:
     said = {"low.0": "-10", "high.0": "20,5", "trials": "7", "show": "load.face_load_factor"}
     body = checked(DesignPage, asked(UNIT, **said)).body()
+    assert (body["judged_by"], body["tolerances"]) == ("worst_corner", {"count": 8, "replicates": 4})
+    judged = checked(DesignPage, asked(UNIT, judged="probability", drawn="16")).body()
+    assert (judged["judged_by"], judged["tolerances"]["count"]) == ("probability", 16)
     assert body["variables"][0] == {"path": ["modifications.helix_slope_um"], "min": -10, "max": 20.5, "step": 0.5}
     assert body["variables"][1]["max"] == 20.0
     assert (body["evaluations"], body["objective"], body["direction"]) == (7, "load.face_load_factor", "minimise")
@@ -220,6 +292,8 @@ def test_ranges_and_trials_come_from_the_form() -> None:
     ("said", "control", "title"),
     [
         ({"trials": "many"}, "trials", "Search, corrections tried"),
+        ({"drawn": "7"}, "drawn", "Search, machines drawn"),
+        ({"judged": "luck"}, "judged", "Search, judged by"),
         ({"low.0": "5", "high.0": "1"}, "low.0", "Search, helix slope, from"),
         ({"high.1": "9999999"}, "high.1", "Search, crowning, to"),
         ({"show": "no.such"}, "show", "Show, output"),

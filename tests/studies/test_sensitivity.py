@@ -81,7 +81,7 @@ def test_every_number_is_moved_sorted_by_influence() -> None:
     outputs = [each["path"] for each in end["outputs"]]
     assert [line["output"] for line in lines] == [output for output in outputs for _ in end["inputs"]]
     for output in outputs:
-        changes = [abs(line["change"] or 0.0) for line in lines if line["output"] == output]
+        changes = [line["range"] or 0.0 for line in lines if line["output"] == output]
         assert changes == sorted(changes, reverse=True)
         assert changes[0] > 0.0
     moved = {each["path"] for each in end["inputs"]}
@@ -94,7 +94,8 @@ def test_every_number_is_moved_sorted_by_influence() -> None:
         "lubricant.viscosity_pa_s",
         "coupling.youngs_modulus_gpa",
     } <= moved
-    assert list(lines[0]) == ["type", "output", "path", "derivative", "elasticity", "step", "change", "kink", "curved"]
+    measures = ["range", "lowered", "raised", "derivative", "elasticity", "step", "change", "kink", "curved"]
+    assert list(lines[0]) == ["type", "output", "path", *measures]
     whole = lines[: len(moved)]
     sides = 2 * len(moved) - sum(line["kink"] is None for line in whole)
     assert end["points"] == 1 + sides + 2 * sum(line["curved"] is not None for line in whole)
@@ -131,6 +132,7 @@ def leaf(**changes: Any) -> Leaf:
         ({"tolerance": 0.5}, 0.0, None, 0.5),
         ({"tolerance": 0.5, "relative_tolerance": 0.01}, 20.0, 19.5, 20.5),
         ({"tolerance": 0.5, "relative_tolerance": 0.05}, 20.0, 19.0, 21.0),
+        ({"relative_tolerance": 0.1}, 20.0, 18.0, 22.0),
         ({"gt": 0.0, "le": 50.0, "tolerance": 1.0}, 1.0, None, 2.0),
         ({}, 50.0, 49.5, None),
         ({"ge": -50.0, "le": 50.0}, -20.0, -20.2, -19.8),
@@ -214,6 +216,45 @@ def test_differences(
     for name, expected in {"derivative": derivative, "elasticity": elasticity, "change": change}.items():
         assert found[name] is None if expected is None else found[name] == pytest.approx(expected, rel=1e-6, abs=1e-12)
     assert found["kink"] is kink
+
+
+@pytest.mark.parametrize(
+    ("values", "lowered", "raised", "spread"),
+    [
+        ((100.0, 90.0, 110.0), -10.0, 10.0, 20.0),
+        ((100.0, 95.0, 95.0), -5.0, -5.0, 5.0),  # the top of a hill, which a slope and a rank correlation do not see
+        ((100.0, None, 110.0), None, 10.0, 10.0),
+        ((100.0, None, None), None, None, None),
+        ((None, 90.0, 110.0), None, None, None),
+    ],
+)
+def test_the_range_sees_an_effect_of_either_sign(
+    values: tuple[float | None, float | None, float | None],
+    lowered: float | None,
+    raised: float | None,
+    spread: float | None,
+) -> None:
+    found = differences(*moved(*values))
+    assert (found["lowered"], found["raised"], found["range"]) == (lowered, raised, spread)
+
+
+def test_the_range_sees_what_half_a_step_does() -> None:
+    whole, outputs = moved(100.0, 100.0, 100.0)
+    assert differences(whole, outputs | {9.5: 97.0, 10.5: 101.0})["range"] == 4.0
+
+
+def test_inputs_move_by_tolerances_that_users_have() -> None:
+    by_class = {"application_factor": 0.1, "power_kw": 0.05, "pinion_torque_n_m": 0.05}
+    for path in ("load.{}", "operation.{}"):
+        request = BY_PATH["/v1/scuffing" if path.startswith("load") else "/v1/drive-train"].request
+        for name, share in by_class.items():
+            field = leaf_at(request, path.format(name))
+            assert field is not None
+            assert field.declared.tolerance_of(1000.0) == pytest.approx(share * 1000.0)
+        for friction in ("friction_coefficient", "friction_factor"):
+            field = leaf_at(request, friction)
+            assert field is not None
+            assert field.declared.tolerance_of(1.0) == pytest.approx(0.3)
 
 
 def test_no_elasticity_at_zero_and_for_degrees() -> None:

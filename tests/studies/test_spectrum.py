@@ -289,18 +289,48 @@ def test_a_scuffing_temperature_that_differs_between_cases_is_said() -> None:
     *_, end = solved({**scuffing(), "cases": cases})
     (note,) = end["notes"]
     assert "not the same in all cases" in note
+    *_, alone = solved({**scuffing(), "cases": cases[1:]})
+    assert end["cases"][1]["limits"] == alone["cases"][0]["limits"]
+    assert end["limits"][0]["decides"] == [0.0, 1.0]  # the lower stage, at equal contact temperatures
 
 
-def test_a_scuffing_temperature_that_scatters_is_limited_by_its_median() -> None:
+def test_machines_with_scuffing_temperatures_of_their_own_are_judged_by_these() -> None:
     body = scuffing()
     body["request"]["temperatures"].pop("scuffing_test")
     body["tolerances"]["inputs"] = [
         {"path": "temperatures.scuffing_c", "distribution": "normal", "mean": 300, "deviation": 30}
     ]
-    _, *points, end = solved({**body, "outputs": ["safety.scuffing_c"], "points": True})
-    drawn = [line["at"]["temperatures.scuffing_c"] for line in points if line["case"] == 0]
-    assert end["limits"][0]["mean"] == pytest.approx(np.median(drawn))
-    assert "not the same in all cases and machines" in end["notes"][0]
+    body |= {"outputs": ["contact_temperature.blok_max_c"], "cases": [{}], "points": True}
+    _, *points, end = solved(body)
+    drawn, reached = np.array([(line["at"]["temperatures.scuffing_c"], line["out"][0]) for line in points]).T
+    (limit,) = end["limits"]
+    assert limit["mean"] == pytest.approx(np.median(drawn))
+    assert limit["probability"] == pytest.approx(norm.cdf((reached - drawn) / (0.15 * drawn)).mean())
+
+
+def test_stages_of_a_test_are_listed_with_their_weights() -> None:
+    body = scuffing() | {"cases": [{}], "points": True}
+    stage = "temperatures.scuffing_test.fzg_stage"
+    body["tolerances"] = {"count": 8, "replicates": 1, "inputs": [scatter_of(stage, values=[10, 12], weights=[1, 3])]}
+    header, *points, end = solved(body)
+    stages = [line["at"][stage] for line in points]
+    assert sorted(set(stages)) == [10, 12]
+    assert stages.count(12) == 6  # a Sobol sample of eight is even
+    assert header["tolerances"]["inputs"][0]["cut_off"] == 0.0
+    single = {**body, "tolerances": None, "points": False}
+    alone = [solved(changed(single, {f"request.{stage}": value}))[-1]["limits"][0]["probability"] for value in (10, 12)]
+    assert end["limits"][0]["probability"] == pytest.approx((alone[0] + 3 * alone[1]) / 4)
+
+
+def test_risk_in_words_belongs_to_the_scuffing_temperature() -> None:
+    *_, end = solved({**scuffing(), "cases": [{}]})
+    assert end["limits"][0]["risk"] in {"low", "moderate", "high"}
+    *_, end = solved(coupling(limits=[above(COAXIAL, 3000, 100)]))
+    assert end["limits"][0]["risk"] is end["cases"][0]["limits"][0]["risk"] is None
+
+
+def scatter_of(path: str, **numbers: Any) -> dict[str, Any]:
+    return {"path": path, "distribution": "listed", **numbers}
 
 
 def test_a_tolerance_that_the_model_does_not_use_is_said() -> None:
@@ -355,7 +385,7 @@ def test_a_gear_unit_with_temperatures_of_its_own_in_each_case() -> None:
     assert end["cases"][0]["limits"][0]["probability"] == pytest.approx(norm.cdf((full - 220) / 33).mean())
 
 
-def scatter(path: str, distribution: str, **numbers: float) -> dict[str, Any]:
+def scatter(path: str, distribution: str, **numbers: Any) -> dict[str, Any]:
     return {"tolerances": {"inputs": [{"path": path, "distribution": distribution, **numbers}]}}
 
 
@@ -382,6 +412,12 @@ FIRST = "/tolerances/inputs/0"
         (scatter(MU, "triangular", min=0, mode=2, max=1), FIRST, "out_of_range"),
         (scatter(MU, "normal", mean=0.2, deviation=1e300), f"{FIRST}/deviation", "out_of_range"),
         (scatter("coupling.teeth", "uniform", min=20, max=30), FIRST, "not_integer"),
+        (scatter("coupling.teeth", "listed", values=[20, 30.5]), f"{FIRST}/values/1", "not_integer"),
+        (scatter("coupling.teeth", "listed", values=[20, 1e9]), f"{FIRST}/values/1", "out_of_range"),
+        (scatter("coupling.teeth", "listed", values=[]), f"{FIRST}/values", "too_short"),
+        (scatter("coupling.teeth", "listed", values=[20], weights=[1, 2]), FIRST, "weights"),
+        (scatter("coupling.teeth", "listed", values=[20], weights=[0]), f"{FIRST}/weights/0", "greater_than"),
+        ({"tolerances": friction(model_uncertainty="yes")}, "/tolerances/model_uncertainty", "bool_type"),
         (scatter("model.sleeve", "uniform", min=0, max=1), f"{FIRST}/path", "not_continuous"),
         ({"limits": [{"output": COAXIAL}]}, "/limits/0", "above_or_below"),
         ({"limits": [{"output": COAXIAL, "above": {"mean": 2}}]}, "/limits/0/above", "value_or_mean"),

@@ -13,7 +13,7 @@ from app.schema.fields import Leaf, leaves
 from app.schema.quantities import Input
 from app.studies.fields import fault
 from app.studies.kinds.sweep import Sweep
-from app.studies.point_sets import cut, drawn
+from app.studies.point_sets import cut, drawn, unit_cube
 from app.studies.requests import Lognormal, Method, Normal, Range, Triangular, Uniform
 from app.studies.statistics import (
     Limit,
@@ -25,6 +25,7 @@ from app.studies.statistics import (
     of_spectrum,
     quantiles,
     rank_correlation,
+    variance_shares,
     weighted_mean,
 )
 from tests.support.coverage import FRICTION, coverage
@@ -303,3 +304,30 @@ def test_the_interval_of_a_fixed_limit_covers_the_truth(method: Method, toleranc
     # draws in every replicate.
     for each in coverage(method, tolerances, 0.0).values():
         assert each.covered >= 0.85, each
+
+
+def test_shares_of_variance_see_what_a_rank_correlation_hides() -> None:
+    """Of y = a x1 + b x2^2 with normal inputs, the shares are a^2 and 2 b^2 over their sum; ranks see one of them."""
+    cube = unit_cube("sobol", 256, 3, 1, "")
+    inputs = np.asarray(norm.ppf(cube))
+    parts = np.array([0.3 * inputs[:, 0], -0.5 * inputs[:, 1] ** 2])
+    output = parts.sum(axis=0)
+    shares = variance_shares(inputs, output)
+    assert shares == pytest.approx([*(parts.var(axis=1) / output.var()), 0.0], abs=1e-9)
+    assert shares == pytest.approx([0.09 / 0.59, 0.5 / 0.59, 0.0], abs=0.05)  # the variance of a parabola in 256 points
+    hidden = rank_correlation(inputs[:, 1], output)
+    assert hidden is not None
+    assert abs(hidden) < 0.1
+
+
+def test_shares_of_variance_of_noise_are_small_and_need_points() -> None:
+    generator = np.random.default_rng(1)
+    inputs, output = generator.random((64, 12)), generator.random(64)
+    found = [share for share in variance_shares(inputs, output) if share is not None]
+    assert len(found) == 12
+    assert max(found) < 0.15
+    assert variance_shares(inputs[:40], output[:40]) == [None] * 12
+    constant = variance_shares(np.column_stack([np.ones(64), inputs[:, 0]]), inputs[:, 0])
+    assert constant == [None, pytest.approx(1.0)]
+    assert variance_shares(inputs, np.ones(64)) == [None] * 12
+    assert variance_shares(np.empty((0, 2)), np.empty(0)) == [None, None]

@@ -337,6 +337,7 @@ class DriveTrainRequest(MeshInOil):
     lubricant: Annotated[Oil, Input("oil")] = Oil()
     temperatures: Annotated[TrainTemperatures, Input("temperatures", text="of contact and oil")] = TrainTemperatures()
     friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
+    friction_factor: Annotated[float, Input.of(mesh.ScuffingInputs, "friction_factor")] = 1.0
     cooling: Annotated[GearCooling, Input.of(mesh.ScuffingInputs, "cooling")] = GearCooling()
     micropitting: Annotated[Micropitting | None, Input.of(mesh.ScuffingInputs, "micropitting")] = None
     standard: Annotated[StandardLoad, Input.of(mesh.ScuffingInputs, "standard")] = StandardLoad()

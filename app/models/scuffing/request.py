@@ -105,7 +105,7 @@ class MeshModel(
     LoadDistributionModel,
     FilmModel,
     of=si.ScuffingInputs,
-    without=("line", "micropitting", "cooling", "standard"),
+    without=("line", "micropitting", "cooling", "standard", "friction_factor"),
 ):
     """Model options of the load distribution and of the film, and the edition of the standard."""
 
@@ -273,6 +273,7 @@ class MeshInOil(Request):
             "lubricant": dry,
             "model.rheology": no_film,
             "model.eyring_stress_mpa": no_film,
+            "friction_factor": dry or self.model.friction == "given",
             "lubricant.kind": not (self.lubricant.by_sheet or self._lubricant_factor_asked),
         }
 
@@ -306,6 +307,7 @@ class ScuffingRequest(MeshInOil, GearPairRequest):
     """A loaded gear pair, its oil, its cooling and its temperatures."""
 
     friction_coefficient: Annotated[float | None, PRACTICAL_FRICTION] = None
+    friction_factor: Annotated[float, Input.of(si.ScuffingInputs, "friction_factor")] = 1.0
     lubricant: Annotated[Oil, Input("oil")] = Oil()
     temperatures: Annotated[ScuffingTemperatures, Input("temperatures", text="temperatures of teeth and oil")] = (
         ScuffingTemperatures()

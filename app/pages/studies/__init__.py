@@ -1,6 +1,7 @@
 """The pages of studies: a module for each kind of study, and what they share.
 
 sweep, sensitivity, spectrum, corners, design   the page of the kind of study in `app.studies.kinds`
+price           how exactly to grind, on the page of the design study
 load_cases      the table of cases on the page of a load spectrum
 unit            what the pages of studies of a gear unit share
 controls        the controls of a form, and the parts of the request body that they set

@@ -1,27 +1,43 @@
-"""The page of the design study: the best flank correction as a sheet for the grinder, and the course of the search."""
+"""The page of the design study: the best flank correction as a sheet for the grinder, and how exactly to grind it."""
 
 from dataclasses import replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
 from app.figures.comparison import compared
-from app.figures.data import Figure, NoFigure, values
+from app.figures.data import Axis, Figure, NoFigure, values
+from app.figures.spectrum import chance_text
 from app.figures.studies import Lead, lead_chart, search
 from app.figures.units import axis_of
+from app.figures.wording import percent
 from app.models.drive_train.figures import GAP, LOAD_ALONE
-from app.pages.cases import SolvedCase
+from app.pages.cases import REFUSED, SolvedCase
 from app.pages.pair_path import WITH_PAIR
 from app.pages.studies.controls import Control
 from app.pages.studies.page import OUTPUT, Controls, Link, Number, Result, Table
-from app.pages.studies.unit import UnitPage, load_figure
-from app.pages.study_kinds import CORNERS, DESIGN
+from app.pages.studies.price import (
+    NO_PRICE,
+    exact_enough,
+    price_figures,
+    price_remarks,
+    price_tables,
+    price_verdict,
+    time_left,
+)
+from app.pages.studies.unit import UnitPage, load_figure, typed_axis
+from app.pages.study_kinds import CORNERS, DESIGN, control_of
 from app.pages.typesetting import shown
 from app.schema.fields import leaf_at, value_at
 from app.studies.kinds.design import SECOND_HELIX, Design
+from app.studies.machines import PAIR
+from app.studies.points import BaseRequest
+from app.studies.price import damages
 from app.studies.requests import Overrides
 from app.studies.runner import Line
 
-EVALUATIONS = 40  # default of the largest number of evaluations on the page; chosen
+PAIRS = 8  # of machines in a sample, default of the page; chosen so that it answers in a minute
+SAMPLES = 4  # independent samples of machines; the scatter of their means gives the error of a probability
+EVALUATIONS = 24  # default of the largest number of evaluations on the page; chosen
 STEP_UM = 0.5  # the page rounds the best correction to multiples of this step
 SLOPE, CROWNING = "modifications.helix_slope_um", "modifications.lead_crowning_um"
 TIP, ROOT = "modifications.tip_relief_um", "modifications.root_relief_um"
@@ -40,19 +56,35 @@ OF_SECOND_HELIX = (
     ("crowning, helix 2", (CROWNING_2,), 0.0, 20.0),
 )
 TRIALS = Control("trials", "evaluations", EVALUATIONS, label="corrections tried")
+JUDGED = Control(
+    "judged",
+    "judged_by",
+    "worst_corner",
+    str,
+    label="judged by",
+    options=(("", "best worst corner"), ("probability", "least probability of damage")),
+)
+DRAWN = Control(
+    "drawn",
+    "tolerances.count",
+    PAIRS,
+    label="machines drawn",
+    options=tuple(("" if count == PAIRS else str(count), str(PAIR * SAMPLES * count)) for count in (PAIRS, 16, 32, 64)),
+)
 
 
 class DesignPage(UnitPage):
     """The page that shows the flank correction with the best result at the worst corner."""
 
     link = DESIGN
-    question = "what to grind?"
+    question = "what to grind, and how exactly?"
     about = (
         "The search varies helix slope, crowning and relief; of double-helical gears, slope and crowning of each "
-        "helix. Each correction is judged at its worst corner of the uncertain inputs. The search starts from the "
-        "correction of the case."
+        "helix. It starts from the correction of the case, and judges each one at its worst corner of the uncertain "
+        "inputs, or by the probability of damage. Machines are then drawn for the correction found: uncertain inputs, "
+        "cooling, friction, and the flanks by quality class."
     )
-    figures = ("lead", LOAD_ALONE.name, GAP.name, "search")
+    figures = ("price", "dominating", "lead", LOAD_ALONE.name, GAP.name, "search")
     grows = True
     plan = Design
 
@@ -92,67 +124,128 @@ class DesignPage(UnitPage):
         output, given = self.output, self.given()
         for (_, paths, *_), variable in zip(self.ground, given["variables"], strict=True):
             variable |= {"path": list(paths), "step": STEP_UM}
+        drawn = {"replicates": SAMPLES, **given.pop("tolerances"), **self._uncertain()}
         return {
             "request": self.asked.body,
             **given,
             "objective": output.path,
             "direction": "maximise" if output.view.greatest_is_best else "minimise",
+            "tolerances": drawn if self.has_limit or self.by_probability else None,
         }
+
+    @property
+    def by_probability(self) -> bool:
+        """Whether corrections are judged by the probability of damage."""
+        return self.views.get(JUDGED.name) == "probability"
+
+    @cached_property
+    def has_limit(self) -> bool:
+        """Whether the case states a limit of scuffing or micropitting."""
+        try:
+            damages(BaseRequest(self.calculation, self.asked.body).checked({}))
+        except REFUSED:
+            return False
+        return True
+
+    def _uncertain(self) -> dict[str, Any]:
+        """Return what differs between machines where the user typed values of uncertain inputs; else nothing."""
+        typed = {quantity: self.views.get(control_of(quantity)) for quantity in self.uncertain}
+        if not any(typed.values()):
+            return {}
+        axes = [
+            typed_axis(axis, typed[quantity] or "") if typed[quantity] else {"path": axis.path, "values": axis.values}
+            for quantity, axis in self.uncertain.items()
+        ]
+        return {"uncertain": axes}
 
     def declared(self) -> tuple[Control, ...]:
         """Return the controls for the number of trials, the ranges of the corrections and the uncertain inputs."""
         whole = (Control(f"low.{place}", f"variables.{place}", sets=False) for place in range(len(self.ground)))
         objective = Control(OUTPUT.name, "objective", sets=False)
-        return (TRIALS, *self.ends, *whole, objective, *super().declared())
+        drawn = Control(DRAWN.name, "tolerances", sets=False)
+        return (TRIALS, JUDGED, DRAWN, *self.ends, *whole, objective, drawn, *super().declared())
 
     def controls(self) -> tuple[Controls, ...]:
         """Return two groups of form fields."""
-        fields = tuple(map(self.field_of, (TRIALS, *self.ends)))
+        fields = tuple(map(self.field_of, (JUDGED, TRIALS, DRAWN, *self.ends)))
         return Controls("Search", fields=fields), *super().controls()
 
     def result(self, lines: list[Line]) -> Result:
-        """Return the sheet for the grinder, further tables, and figures of the lead, the load, the gap and the search.
+        """Return the sheet for the grinder, the price of the tolerance, and figures of lead, load, gap and search.
 
-        While the search runs, return only the best correction so far and the figure of the search.
+        While the search runs, return only the best correction so far, the classes so far and the figure of the search.
         """
         trials = [line for line in lines if line["type"] == "trial"]
         solved_trials = [line for line in trials if line["objective"] is not None]
         if not solved_trials:
             return Result("")
-        end, greatest = lines[-1], self.output.view.greatest_is_best
-        objectives = [line["objective"] for line in trials]
-        figure = {"search": search(axis_of(self.output), objectives, greatest=greatest)}
+        end, greatest = lines[-1], self.output.view.greatest_is_best and not self.by_probability
+        scale = 100.0 if self.by_probability else 1.0
+        objectives = [None if line["objective"] is None else scale * line["objective"] for line in trials]
+        axis = Axis("probability of damage", "%") if self.by_probability else axis_of(self.output)
+        figure = {"search": search(axis, objectives, greatest=greatest, where=self._where)}
         if end["type"] != "end":
             best = (max if greatest else min)(solved_trials, key=lambda line: line["objective"])
             lead = Link("Open the unit ground so", self.address(best["at"]))
-            return Result("", figure, first=(self._so_far(solved_trials[0], best),), leads=(lead,))
+            so_far = (self._so_far(solved_trials[0], best),)
+            left = time_left(self.study, trials, [line for line in lines if line["type"] == "price"])
+            return Result("", figure, first=so_far, leads=(lead,), answer=left)
         wanted = end["rounded"]
         if wanted["objective"] is None:
             wanted = {"at": end["best"], "objective": end["objective_best"], "worst_corner": end["worst_corner"]}
-        at, corner = wanted["at"], wanted["worst_corner"]
+        at, corner, price = wanted["at"], wanted["worst_corner"], end.get("price")
         case, ground = self.solved({}), self.solved(at)
         at_worst, as_described = self.solved({**at, **corner}), self.solved(trials[0]["worst_corner"])
         finding = "each at its worst corner, dashed as described: "
         figures = {
-            "lead": self._lead_chart(case, at),
+            **({} if price is None else price_figures(price)),
+            "lead": self._lead_chart(case, at, {} if price is None else exact_enough(price)),
             **load_figure(at_worst, as_described, "ground so", finding),
             **_gap(ground, case),
             **figure,
         }
         unsolved = end["unsolved"]
+        remarks = [f"{unsolved} of the corrections have a corner without solution."] if unsolved else []
+        remarks += [NO_PRICE] if price is None else price_remarks(price)
+        title = "The drawn machine that comes closest to damage" if self.by_probability else "The worst corner"
         return Result(
-            f"{end['evaluations']} corrections at {lines[0]['corners']} corners in {shown(end['elapsed_s'], 2)} s",
+            f"{end['evaluations']} corrections {self._judged(lines[0])} in {shown(end['elapsed_s'], 2)} s",
             figures,
-            (_numbers(case, end, at), self.corner_table("The worst corner with this correction", ground, corner)),
-            (f"{unsolved} of the corrections have a corner without solution.",) if unsolved else (),
+            (
+                *(() if price is None else price_tables(price)[1:]),
+                _numbers(case, end, at),
+                self.corner_table(f"{title} with this correction", ground, corner),
+            ),
+            tuple(remarks),
             (
                 Link("Open the unit ground so", self.address(at)),
                 Link("Its report", self.address(at, "/report")),
                 Link("One report of all steps", self.address(at, "/report", extent=WITH_PAIR)),
                 Link("Its worst corners", self.address(at, f"/{CORNERS.name}")),
             ),
-            first=(grinding_sheet(case, at), self._before_and_after(end, wanted, case, ground)),
+            first=(
+                grinding_sheet(case, at, price),
+                *(() if price is None else price_tables(price)[:1]),
+                self._before_and_after(end, wanted, case, ground),
+            ),
+            answer="" if price is None else price_verdict(price),
         )
+
+    @property
+    def _where(self) -> str:
+        return "over the drawn machines" if self.by_probability else "at the worst corner"
+
+    def _judged(self, header: Line) -> str:
+        count = header["corners"]
+        return f"by {count} machines each" if self.by_probability else f"at {count} corners"
+
+    def _objective(self, value: float | None) -> str:
+        """Return an objective as text."""
+        return percent(value) if self.by_probability and value is not None else shown(value)
+
+    @property
+    def _objective_unit(self) -> str:
+        return "" if self.by_probability else self.output.unit or ""
 
     def _so_far(self, start: Line, best: Line) -> Table:
         """Return the table that the page shows while the search runs: the best correction so far."""
@@ -160,27 +253,36 @@ class DesignPage(UnitPage):
         for path, value in best["at"].items():
             leaf = self.input(path)
             rows.append((leaf.title, shown(start["at"][path], 4), shown(value, 4), leaf.unit or ""))
-        judged = f"{self.output.title}, at the worst corner"
-        rows.append((judged, shown(start["objective"]), shown(best["objective"]), self.output.unit or ""))
+        what = "probability of damage" if self.by_probability else self.output.title
+        values = (self._objective(start["objective"]), self._objective(best["objective"]))
+        rows.append((f"{what}, {self._where}", *values, self._objective_unit))
         return Table("Best so far", ("correction", Number("as described"), Number("best so far"), "unit"), rows)
 
     def _before_and_after(self, end: Line, wanted: Line, case: SolvedCase, ground: SolvedCase) -> Table:
         """Return a table that compares the output before and after the correction."""
         output = self.output
         before, after = (value_at(unit_case.response, output.path) for unit_case in (case, ground))
-        unit, note = output.unit or "", ""
-        rows = (
-            ("at the worst corner of each", shown(end["objective_start"]), shown(wanted["objective"]), unit),
-            ("with the inputs as described", shown(before), shown(after), unit),
-        )
+        unit, note, price = output.unit or "", "", end.get("price")
+        values = (self._objective(end["objective_start"]), self._objective(wanted["objective"]))
+        what = "probability of damage, by the machines of the search" if self.by_probability else output.title
+        where = "" if self.by_probability else ", at the worst corner of each"
+        rows = [
+            (f"{what}{where}", *values, self._objective_unit),
+            (f"{output.title}, with the inputs as described", shown(before), shown(after), unit),
+        ]
+        if price is not None:
+            own = next(row for row in price["classes"] if row["quality_class"] == price["reference_class"])
+            chances = (chance_text(price["as_described"]), chance_text(own))
+            rows.append((f"probability of damage, flanks of class {price['reference_class']}", *chances, ""))
+            rows.append(("probability of damage, nominal values", "–", chance_text(price["nominal"]), ""))
         if None not in {before, after} and (after < before if output.view.greatest_is_best else after > before):
             note = (
                 "With the inputs as described the result is worse than before. The reason is that the correction is "
-                "chosen for its worst corner; a flank that is right at this corner is not quite right elsewhere."
+                f"chosen {self._where}; a flank that is right there is not quite right elsewhere."
             )
-        return Table("What it brings", (output.title, Number("as described"), Number("ground so"), "unit"), rows, note)
+        return Table("What it brings", ("number", Number("as described"), Number("ground so"), "unit"), rows, note)
 
-    def _lead_chart(self, case: SolvedCase, at: Overrides) -> Figure:
+    def _lead_chart(self, case: SolvedCase, at: Overrides, widths: Overrides) -> Figure:
         """Return the figure of the lead, which is the sum of helix slope and crowning.
 
         The solid line is the lead to grind, with its tolerance band. The dashed line is the lead as entered.
@@ -191,17 +293,20 @@ class DesignPage(UnitPage):
             position = values(curves.position_mm)
             wanted = Lead(*(float(at[path] or 0.0) for path in paths))
             before = Lead(*(_described(case, path) for path in paths))
-            tolerance = Lead(*(self.input(path).declared.tolerance or 0.0 for path in paths))
+            usual = {path: self.input(path).declared.tolerance or 0.0 for path in paths}
+            tolerance = Lead(*(float(widths.get(path) or usual[path]) for path in paths))
             chart = lead_chart(values(curves.z_mm), position / position[-1], wanted, before, tolerance, each.ends)
             charts.append(replace(chart, panels=[replace(panel, title=each.name or None) for panel in chart.panels]))
         return replace(charts[0], panels=[panel for chart in charts for panel in chart.panels])
 
 
-def grinding_sheet(case: SolvedCase, at: Overrides | None = None) -> Table:
+def grinding_sheet(case: SolvedCase, at: Overrides | None = None, price: Line | None = None) -> Table:
     """Return the sheet for the grinder: gear, place on the flank, amount and tolerance of each correction.
 
-    `at` are the corrections to grind, beside those of the case; None: the corrections of the case itself.
+    `at` are the corrections to grind, beside those of the case; None: the corrections of the case itself. With the
+    price of a tolerance, that of a slope is of the coarsest class that is exact enough.
     """
+    widths = {} if price is None else exact_enough(price)
     inputs, faces, request = case.response.inputs, _faces(case), type(case.request)
     tip, wheel_tip = (
         f"tip relief, {shown(length)} mm along the line of action" if length is not None else "tip relief"
@@ -219,15 +324,15 @@ def grinding_sheet(case: SolvedCase, at: Overrides | None = None) -> Table:
         if path in {SLOPE, SLOPE_2}:  # for the slope, the column `where` shows the sign
             described, amount = -described if amount < 0.0 else described, abs(amount)
         before = () if at is None else (shown(described),)
-        rows.append(
-            (gear, feature, place, *before, shown(amount, 4), f"± {shown(leaf.declared.tolerance)}", leaf.unit or "")
-        )
+        tolerance = f"± {shown(widths.get(path, leaf.declared.tolerance), 3)}"
+        rows.append((gear, feature, place, *before, shown(amount, 4), tolerance, leaf.unit or ""))
     numbered = map(Number, ("grind", "tolerance") if at is None else ("as described", "grind", "tolerance"))
+    by_class = f", that of the helix slope of quality class {price['coarsest_class']}" if price and widths else ""
     note = (
         'Only the working flanks are corrected. "Deeper" means that more material is removed. '
         + (f"Corrections are multiples of {STEP_UM:g} µm; the" if at else "The")
-        + " tolerances are usual for these corrections. Helix slope and crowning are the sums for both gears and are "
-        "put on the pinion. Tip relief of the wheel replaces root relief of the pinion."
+        + f" tolerances are usual for these corrections{by_class}. Helix slope and crowning are the sums for both "
+        "gears and are put on the pinion. Tip relief of the wheel replaces root relief of the pinion."
     )
     return Table("What to grind", ("gear", "correction", "where", *numbered, "unit"), rows, note)
 

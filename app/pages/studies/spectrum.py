@@ -15,6 +15,7 @@ from app.figures.data import Figure, NoFigure
 from app.figures.spectrum import Limited, LimitedCase, chance_text, chances, deciding, losses, overlap, sentence
 from app.figures.units import axis_of
 from app.figures.wording import difference_unit, number, percent
+from app.pages.cases import FILE_NAMES, REFUSED
 from app.pages.form import FieldView
 from app.pages.query import Pairs, link, pairs_of
 from app.pages.studies.controls import Control, field_choices, is_number, texts_of
@@ -23,18 +24,29 @@ from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Ta
 from app.pages.study_kinds import CASES, SPECTRUM, TOLERANCES
 from app.pages.study_links import Starter
 from app.pages.templating import page_path
-from app.pages.typed import as_typed
+from app.pages.typed import as_typed, number_of, text_of
 from app.pages.typesetting import cited, shown
-from app.schema.fields import leaf_at, value_at
+from app.schema.fields import Leaf, leaf_at, value_at
 from app.studies.fields import scalar_at
-from app.studies.kinds.spectrum import RELATIVE_DEVIATION, Spectrum
-from app.studies.points import SOLVED
+from app.studies.kinds.spectrum import Spectrum
+from app.studies.points import SOLVED, BaseRequest
 from app.studies.runner import Line
+from app.studies.statistics import RELATIVE_DEVIATION
 from app.studies.tolerances import class_remarks
+from app.studies.uncertainty import model_distributions
 
 REPLICATES = 8  # number of independent samples on the page; the scatter of their means gives the error of a mean
 MACHINES = (("", "256"), ("64", "64"), ("1024", "1024"), ("4096", "4096"))
-LAWS = (("", "normal"), ("uniform", "uniform"), ("triangular", "triangular"), ("lognormal", "lognormal"))
+LAWS = (
+    *(("", "normal"), ("uniform", "uniform"), ("triangular", "triangular"), ("lognormal", "lognormal")),
+    ("listed", "listed values with weights"),
+)
+LISTED = "listed"
+MODELS = (("", "not drawn"), ("true", "drawn"))
+NOT_DRAWN = (
+    "how well the models are known (cooling of the teeth, friction, bulk temperature) is not in these numbers; one "
+    "click draws it too"
+)
 SIDES = (("", "by the output"), ("above", "above is bad"), ("below", "below is bad"))
 MOST_BARS = 40  # number of bars that fit side by side on a page
 
@@ -46,6 +58,7 @@ CONTROLS = (
     Control("limit", "limit.value"),
     Control("limit.side", "limit.side", read=str),
     Control("limit.by", "limit.deviation"),
+    Control("models", "tolerances.model_uncertainty", False, lambda text: text == "true"),
     Control("machines", "tolerances", sets=False),
     Control("limit", "limits", sets=False),
 )
@@ -80,7 +93,12 @@ def _tolerance(place: int, name: str, about: Any = None, by: Any = None) -> list
 
 
 def _stated(law: str, about: Any, by: Any) -> dict[str, Any]:
-    """Convert mean and width into the parameters of a distribution."""
+    """Convert mean and width into the parameters of a distribution; values and weights if it is listed."""
+    if law == LISTED:
+        values, weights = (
+            [] if text is None else [number_of(part.strip()) for part in str(text).split(";")] for text in (about, by)
+        )
+        return {"values": values, "weights": weights or None}
     if names := STATED.get(law):
         return dict(zip(names, (about, by), strict=True))
     ends = {"uniform": ("min", "max"), "triangular": ("min", "mode", "max")}.get(law, ())
@@ -90,7 +108,10 @@ def _stated(law: str, about: Any, by: Any) -> dict[str, Any]:
 def _typed(scatter: dict[str, Any]) -> dict[str, Any]:
     """Convert a distribution in the body into the values of the controls."""
     law = scatter["distribution"]
-    if names := STATED.get(law):
+    if law == LISTED:
+        about = "; ".join(map(text_of, scatter["values"]))
+        by = "; ".join(map(text_of, scatter.get("weights") or ())) or None
+    elif names := STATED.get(law):
         about, by = (scatter[name] for name in names)
     else:
         about, by = (scatter["min"] + scatter["max"]) / 2, (scatter["max"] - scatter["min"]) / 2
@@ -104,7 +125,7 @@ def address_of(
     inputs, views = [_typed(scatter) for scatter in (body.get("tolerances") or {}).get("inputs") or ()], dict(file)
     given = {
         "cases": table_of(endpoint, body["cases"]),
-        "tolerances": {"inputs": inputs},
+        "tolerances": {"inputs": inputs, "model_uncertainty": (body.get("tolerances") or {}).get("model_uncertainty")},
         "hours_per_year": body.get("hours_per_year"),
     }
     for limit in (body.get("limits") or ())[:1]:
@@ -145,12 +166,14 @@ class SpectrumPage(StudyPage):
         machines = tolerances["count"]
         if not isinstance(machines, int):
             raise Unprocessable("int_type", "give a whole number", "tolerances.count")
-        tolerances = {"inputs": inputs or None, "count": machines // REPLICATES, "replicates": REPLICATES}
+        models = tolerances.get("model_uncertainty", False)
+        draws = {"count": machines // REPLICATES, "replicates": REPLICATES, "model_uncertainty": models}
+        scatters = inputs or models or value_at(self.case, "gears.quality_class")
         return {
             "endpoint": calculation.path,
             "request": self.asked.body,
             "cases": cases_of(calculation, given["cases"]),
-            "tolerances": tolerances if inputs or value_at(self.case, "gears.quality_class") else None,
+            "tolerances": {"inputs": inputs or None, **draws} if scatters else None,
             "outputs": list(dict.fromkeys([output, *calculation.words.losses])),
             "limits": self._limits(given.get("limit", {})),
             "hours_per_year": given.get("hours_per_year"),
@@ -165,10 +188,11 @@ class SpectrumPage(StudyPage):
         controls = [*CONTROLS]
         for place, name in enumerate(self._given()):
             path = self.views[name]
-            leaf, where = self.field_at(path), f"tolerances.inputs.{place}"
-            controls += _tolerance(place, name, value_at(self.case, path), leaf.declared.tolerance if leaf else None)
+            where, own = f"tolerances.inputs.{place}", value_at(self.case, path)
+            is_listed = self.views.get(f"{name}.law") == LISTED
+            controls += _tolerance(place, name, own, None if is_listed else _usual(self.field_at(path), own))
             controls += (
-                Control(f"{name}.about", f"{where}.median", sets=False),
+                Control(f"{name}.about", f"{where}.{'values' if is_listed else 'median'}", sets=False),
                 Control(f"{name}.by", where, sets=False),
             )
         return (*controls, *(Control(name, "tolerances.inputs", sets=False) for name in self._given()[:1]))
@@ -178,13 +202,15 @@ class SpectrumPage(StudyPage):
         leaf = scalar_at(self.calculation.request, given["path"], f"{where}.path", "unknown_path")
         about: Any = given.get("mean")
         by: Any = given.get("deviation")
+        law = given["distribution"]
+        if law == LISTED:
+            return {"path": leaf.path, "distribution": law, **_stated(law, about, by)}
         for value, lacks in (
             (about, "the value around which the field scatters"),
             (by, "the amount by which the field scatters"),
         ):
             if not is_number(value):
                 raise Unprocessable("missing", f"{leaf.title}: give {lacks}", where)
-        law = given["distribution"]
         return {"path": leaf.path, "distribution": law, **_stated(law, about, by)}
 
     @property
@@ -231,12 +257,14 @@ class SpectrumPage(StudyPage):
         for place, name in enumerate(TOLERANCES[: last + 3]):
             path = self.views.get(name, "")
             leaf, own = leaf_at(self.calculation.request, path), value_at(case, path)
-            unit, usual = (leaf.unit or "", leaf.declared.tolerance) if leaf else ("", None)
-            fields = (
-                self.field(f"{name}.law", "distribution", options=LAWS),
-                self.field(f"{name}.by", "by", usual, difference_unit(unit) or ""),
-                self.field(f"{name}.about", "around", own, unit),
-            )
+            unit, usual = (leaf.unit or "") if leaf else "", _usual(leaf, own)
+            law = self.field(f"{name}.law", "distribution", options=LAWS)
+            if law.text == LISTED:
+                values = self.field(f"{name}.about", "values, with semicolons", text_of(own), unit)
+                fields = (law, values, self.field(f"{name}.by", "weights, with semicolons", "equal"))
+            else:
+                by = self.field(f"{name}.by", "by", usual, difference_unit(unit) or "")
+                fields = (law, by, self.field(f"{name}.about", "around", own, unit))
             groups.append(Controls(f"Tolerance {place + 1}", self.menu(name, "field", "none", choices), fields))
         return tuple(groups)
 
@@ -249,6 +277,7 @@ class SpectrumPage(StudyPage):
             self.field("limit.by", "deviation of the limit", deviation),
             self.field("limit.side", "side", options=SIDES),
             self.field("machines", "machines drawn", options=MACHINES),
+            self.field("models", "uncertainty of the models", options=MODELS),
             self.field("hours", "hours a year"),
         )
 
@@ -269,11 +298,10 @@ class SpectrumPage(StudyPage):
         machines = end["points"] // cases
         counted = [f"{count} {noun}{'s' * (count > 1)}" for count, noun in ((machines, "machine"), (cases, "case"))]
         progress = f"{' in '.join(counted)}, {shown(end['elapsed_s'], 2)} s"
-        figures, notes = dict[str, Figure](), [*end["notes"]]
+        figures, notes, answer = dict[str, Figure](), [*end["notes"]], ""
         limit = next((content for content in end["limits"] if content["output"] == output.path), None)
         if limit is not None:
-            limited, conclusion = self._limited(end, limit), sentence(limit)
-            progress = f"{conclusion[0].upper()}{conclusion[1:]}; {progress}"
+            limited, answer = self._limited(end, limit), f"{sentence(limit, self.output.title)}."
             for name, draw in (("limit", overlap), ("probability", chances), ("decides", deciding)):
                 try:
                     figures[name] = draw(limited)
@@ -294,9 +322,29 @@ class SpectrumPage(StudyPage):
             *((_tolerances_table(header, limit),) if header["tolerances"] else ()),
         )
         notes += class_remarks(end["assumptions"])
+        leads = [Link("Report with this spectrum", self.view("/report"))]
+        if limit is not None and self._could_draw_models:
+            notes.append(NOT_DRAWN)
+        if limit is not None and self._could_draw_models and not self.too_long:
+            leads.append(Link("Draw the uncertainty of the models too", self._with_models))
         remarks = tuple(f"{note[0].upper()}{note[1:]}." for note in notes)
-        leads = (Link("Report with this spectrum", self.view("/report")),)
-        return Result(progress, figures | self._losses(end), tables, remarks, leads)
+        return Result(progress, figures | self._losses(end), tables, remarks, tuple(leads), answer=answer)
+
+    @property
+    def _could_draw_models(self) -> bool:
+        """Whether something that the models do not know well is neither drawn nor set by the cases."""
+        base = BaseRequest(self.calculation, self.study.body.request)
+        taken = {leaf.path for leaf in self.study.scattering} | {path for case in self.study.cases for path in case.set}
+        try:
+            return not model_distributions(base.checked(self.study.overrides(0))).keys() <= taken
+        except REFUSED:
+            return False
+
+    @property
+    def _with_models(self) -> str:
+        """The address of this page with the uncertainty of the models drawn."""
+        views = {name: text for name, text in self.views.items() if name in {*SPECTRUM.controls, "show", *FILE_NAMES}}
+        return link(f"{self.asked.path}/{SPECTRUM.name}", self.asked.pairs, **views | {"models": "true"})
 
     def _limited(self, end: Line, limit: Line) -> Limited:
         """Return the data that the figures about a limit show."""
@@ -308,8 +356,8 @@ class SpectrumPage(StudyPage):
         ]
         worst = sorted(cases, key=lambda case: -case.chance["bounds"][1])[:MOST_BARS]
         titles = {leaf.path: leaf.title for leaf in self.study.scattering}
-        ranks = limit["rank_correlation"] or {}
-        influences = {titles[path]: value for path, value in ranks.items() if value is not None}
+        shares = limit["variance_share"] or {}
+        influences = {titles[path]: value for path, value in shares.items() if value is not None}
         return Limited(axis_of(self.output), limit, [case for case in cases if case in worst], influences)
 
     def _losses(self, end: Line) -> dict[str, Figure]:
@@ -379,6 +427,11 @@ class SpectrumPage(StudyPage):
         )
 
 
+def _usual(leaf: Leaf | None, value: Any) -> float | None:
+    """Return the declared tolerance of a field at its value in the case; None without one."""
+    return leaf.declared.tolerance_of(value if is_number(value) else 0.0) if leaf else None
+
+
 def _deviation(value: float | None, unit: str | None, digits: int) -> str:
     """Return a difference of two values as text."""
     own = difference_unit(unit)
@@ -388,15 +441,25 @@ def _deviation(value: float | None, unit: str | None, digits: int) -> str:
 def _tolerances_table(header: Line, limit: Line | None) -> Table:
     """Return a table of the fields that scatter, with their distributions."""
     numbers = ("mean", "deviation", "median", "factor", "min", "mode", "max")
-    ranks = (limit and limit["rank_correlation"]) or {}
+    ranks, shares = ((limit and limit[name]) or {} for name in ("rank_correlation", "variance_share"))
     rows = []
     for scatter in header["tolerances"]["inputs"]:
         stated = {name: shown(scatter[name], 4) for name in numbers if scatter.get(name) is not None}
         if "deviation" in stated:
             stated["deviation"] = _deviation(scatter["deviation"], scatter["unit"], 4)
+        if scatter["distribution"] == LISTED:
+            stated = {"values": ", ".join(shown(value, 4) for value in scatter["values"])}
+            weights = ", ".join(shown(weight, 4) for weight in scatter["weights"] or ())
+            stated |= {"weights": weights} if weights else {}
         law = ", ".join(f"{name} {value}" for name, value in stated.items())
         described = (scatter["title"], f"{scatter['distribution']}: {law}", scatter["unit"] or "")
-        rows.append((*described, percent(scatter["cut_off"]), shown(ranks.get(scatter["path"]), 3)))
-    head = ("field", "distribution", "unit", Number("cut off"), Number("rank"))
-    note = '"Cut off" is the share of values beyond four deviations or outside the range of the field'
-    return Table("Tolerances", head, rows, f'{note}. "Rank" is the rank correlation with the worst case.')
+        share = shares.get(scatter["path"])
+        measures = ("–" if share is None else percent(share), shown(ranks.get(scatter["path"]), 3))
+        rows.append((*described, percent(scatter["cut_off"]), *measures))
+    head = ("field", "distribution", "unit", *map(Number, ("cut off", "share of variance", "rank")))
+    note = (
+        '"Cut off" is the share of values beyond four deviations or outside the range of the field. "Share of '
+        'variance" is what the field alone explains of the worst case, also if both sides cost. "Rank" is the rank '
+        "correlation with the worst case; it is near zero if both sides cost."
+    )
+    return Table("Tolerances", head, rows, note)

@@ -48,7 +48,7 @@ class UnitPage(StudyPage):
             name = control_of(quantity)
             usual = None if quantity in self.left_alone else {"path": axis.path, "values": axis.values}
             if usual or self.views.get(name):
-                controls.append(Control(name, f"{self.corners}.{len(controls)}", usual, partial(_typed, axis)))
+                controls.append(Control(name, f"{self.corners}.{len(controls)}", usual, partial(typed_axis, axis)))
         return (*(Control(first.name, self.corners, sets=False) for first in controls[:1]), *controls)
 
     def controls(self) -> tuple[Controls, ...]:
@@ -75,7 +75,7 @@ class UnitPage(StudyPage):
         return Table(title, ("input", Number("as described"), Number("there"), "unit"), rows)
 
 
-def _typed(axis: Axis, text: str) -> dict[str, Any]:
+def typed_axis(axis: Axis, text: str) -> dict[str, Any]:
     """Return the path of an uncertain input, and the values that the user typed for this input."""
     rows = [[number_of(part) for part in row.split()] for row in text.split(";")]
     return {"path": axis.path, "values": [row[0] if len(row) == 1 else row for row in rows]}

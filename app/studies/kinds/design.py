@@ -1,8 +1,11 @@
-"""Design: some inputs of a gear unit are varied, and the values with the best result in the worst case are sought."""
+"""Design: the correction of a gear unit whose worst corner is best, or that is least likely to be damaged.
+
+Where machines are drawn, the price of the flanks' tolerance follows: how probable damage is by quality class.
+"""
 
 from collections.abc import Sequence
 from contextlib import aclosing
-from math import ceil, floor, inf
+from math import ceil, floor, inf, log
 from typing import Annotated, Any, Literal
 
 import numpy as np
@@ -14,8 +17,10 @@ from app.schema.fields import Leaf, value_at
 from app.schema.quantities import Input
 from app.studies import runner
 from app.studies.fields import NUMBERS, check_value, not_a_number
+from app.studies.machines import MachineDraws
 from app.studies.point_sets import common_unit, grid, listed
 from app.studies.points import SOLVED, BaseRequest, check_count, check_distinct
+from app.studies.price import PROBABILITY, Pricing
 from app.studies.requests import (
     RANGES,
     Cases,
@@ -37,6 +42,7 @@ LAST_STEP = 2e-3  # trust radius at the end of the search, as a share of the ran
 LEAST_GAIN = 1e-3  # the search ends if a restart gains less than this share of the objective at the start
 VALUE_SCALE = 0.2  # the unit of the scaled objectives, as a share of the objective at the start
 PENALTY = 5.0  # scaled objective of a point without solution, minus the scaled objective of the worst point so far
+LEAST_CHANCE = 1e-30  # the search takes the logarithm of a probability, which is at least this
 MOST_STEPS = 100  # largest number of COBYQA steps per evaluation; a step that only moves the level is no evaluation
 
 
@@ -75,6 +81,18 @@ class DesignRequest(DriveTrainStudy):
     evaluations: Annotated[
         int, Input("evaluations", text="how many corrections may be tried at every corner", ge=1, le=1000)
     ] = 60
+    judged_by: Annotated[
+        Literal["worst_corner", "probability"],
+        Input("judged by", text="the objective at its worst corner, or the probability of damage over drawn machines"),
+    ] = "worst_corner"
+    tolerances: Annotated[
+        MachineDraws | None,
+        Input(
+            "tolerances",
+            text="draws machines, and states the probability of damage by quality class",
+            default_text="no machines are drawn, unless the correction is judged by them",
+        ),
+    ] = None
 
 
 class Design(Study):
@@ -84,12 +102,20 @@ class Design(Study):
     corner. The output `safety.minimum` needs the thermal film, which takes one second per corner. If the output is
     `safety.blok_flank`, or if `model.lubrication` is `closed_form`, the search is twenty times as fast.
 
+    With `tolerances`, machines are drawn for the correction that was found: what is uncertain of the unit, what the
+    models do not know, and the slopes of the flanks by each quality class, with the same draws for every class. A line
+    `price` per class states the probability of scuffing or micropitting (the more probable), and `price` in the last
+    line the coarsest class that costs less than a tenth more than exact flanks, what dominates, and the probability
+    with nominal values, of the unit as described and with exact flanks. With `evaluations` 1 the correction of the
+    request itself is priced. `judged_by` `probability` seeks the correction that is least likely to be damaged at the
+    quality class of the gears (5 without one); `objective` and `corners` then have no effect.
+
     If a variable has a `step`, the last line of the answer has the member `rounded`. This member holds the best
     correction, rounded to whole steps, and the objective of the rounded correction.
     """
 
     path = "/v1/drive-train/design"
-    summary = "The correction of a gear unit that is best at its worst corner"
+    summary = "The correction of a gear unit that is best at its worst corner, and how exactly to grind it"
     answer = "a line for the search, one for each correction tried, and one for the end"
     model = DesignRequest
     body: DesignRequest
@@ -108,18 +134,40 @@ class Design(Study):
         self.units = [_unit(variable, base, f"variables.{place}") for place, variable in enumerate(body.variables)]
         self.cases = _cases(body, base)
         case = base.checked(self.cases[0]).model_dump()
-        if body.direction is None and objective.view.bound is None:
+        self.pricing = self._priced(base, body.collective or list[Overrides]([{}]))
+        if body.direction is None and objective.view.bound is None and not self.by_probability:
             message = (
                 f"for {objective.path} it is not known whether large or small values are better; set direction to "
                 "maximise or minimise"
             )
             raise Unprocessable("direction_missing", message, "direction")
         self.direction = body.direction or ("maximise" if objective.view.greatest_is_best else "minimise")
+        if self.by_probability:
+            self.direction = "minimise"
         self.start = [_share(variable, case) for variable in body.variables]  # start of the search in the unit cube
         self.is_rounded = any(variable.step is not None for variable in body.variables)
-        total = (body.evaluations + self.is_rounded) * len(self.cases)
+        total = (body.evaluations + self.is_rounded) * self.points_per_trial
+        total += 0 if self.pricing is None else self.pricing.points
         check_count(total, most, "evaluations")
         return total
+
+    @property
+    def by_probability(self) -> bool:
+        """Whether corrections are judged by the probability of damage."""
+        return self.body.judged_by == "probability"
+
+    @property
+    def points_per_trial(self) -> int:
+        """The number of points at which a correction is judged."""
+        by_machines = self.pricing is not None and self.by_probability
+        return self.pricing.points_per_trial if by_machines and self.pricing else len(self.cases)
+
+    def _priced(self, base: BaseRequest, load_cases: list[Overrides]) -> Pricing | None:
+        """Return the machines that judge corrections; None if none are drawn."""
+        given = self.body.tolerances or (MachineDraws() if self.by_probability else None)
+        elsewhere = {path for variable in self.body.variables for path in variable.paths}
+        elsewhere |= {path for case in load_cases for path in case}
+        return None if given is None else Pricing(base, given, load_cases, elsewhere, self.question)
 
     async def lines(self, pool: Pool, clock: Clock) -> Lines:
         """Yield the header, a line for each correction tried, and the line `end`."""
@@ -130,10 +178,11 @@ class Design(Study):
                     {"path": variable.paths, "unit": unit, "min": variable.min, "max": variable.max}
                     for variable, unit in variables
                 ],
-                objective=output_header(self.outputs[0]),
+                objective=PROBABILITY if self.by_probability else output_header(self.outputs[0]),
                 direction=self.direction,
-                corners=len(self.cases),
+                corners=self.points_per_trial,
                 evaluations=self.body.evaluations,
+                **({} if self.pricing is None else {"quality_class": self.pricing.machines.reference}),
             )
         ]
         trials: list[Line] = []
@@ -143,7 +192,7 @@ class Design(Study):
         while place is not None:
             values = self._values(place)
             trial, signed = await self._trial(pool, clock, values)
-            yield [{"type": "trial", "index": len(trials), **trial}]
+            yield [{"type": "trial", "index": len(trials), **trial, "elapsed_s": clock.elapsed_s}]
             trials.append(trial)
             objectives.append(signed)
             if objectives[0] is None:
@@ -161,6 +210,15 @@ class Design(Study):
         if self.is_rounded:
             values = [_rounded(variable, best["at"][variable.paths[0]]) for variable in self.body.variables]
             rounded["rounded"], _ = await self._trial(pool, clock, values)
+        priced: Line = {}
+        if self.pricing is not None:
+            wanted = rounded.get("rounded", best)
+            at = (best if wanted["objective"] is None else wanted)["at"]
+            async for line in self.pricing.lines(pool, clock, at, self.question.gear_flow):
+                if "quality_class" in line:
+                    yield [{"type": "price", **line, "elapsed_s": clock.elapsed_s}]
+                else:
+                    priced["price"] = line
         yield [
             {
                 "type": "end",
@@ -171,6 +229,7 @@ class Design(Study):
                 "worst_corner": best["worst_corner"],
                 "evaluations": len(trials),
                 **rounded,
+                **priced,
                 "unsolved": objectives.count(None),
                 "history": [{"at": trial["at"], "objective": trial["objective"]} for trial in trials],
                 "elapsed_s": clock.elapsed_s,
@@ -198,6 +257,10 @@ class Design(Study):
         worst case, with None as its objective. None is also returned instead of the objectives.
         """
         at = self._at(values)
+        if self.by_probability and self.pricing is not None:
+            trial, chance = await self.pricing.trial(pool, clock, at, self.question.gear_flow)
+            self.unsolved = chance is None
+            return trial, None if chance is None else [log(max(chance, LEAST_CHANCE))]
         objectives: list[float] = []
         indices = range(len(self.cases))
         runs = runner.in_order(pool, self.question, lambda index: {**at, **self.cases[index]}, indices, clock)

@@ -14,7 +14,7 @@ from app.schema.fields import Leaf
 from app.schema.quantities import Input
 from app.studies import runner, statistics
 from app.studies.fields import NUMBERS
-from app.studies.point_sets import anchors, cut, drawn, fields_set, scattering, unit_cube
+from app.studies.point_sets import anchors, cut_off, drawn, fields_set, scattering, unit_cube
 from app.studies.points import SOLVED, BaseRequest, Question, solve_point
 from app.studies.requests import (
     COUNT,
@@ -31,20 +31,15 @@ from app.studies.requests import (
     Value,
 )
 from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header, paths_of
-from app.studies.statistics import Limit
+from app.studies.statistics import ASSUMED_DEVIATION, RELATIVE_DEVIATION, Limit
 from app.studies.tolerances import class_assumptions, class_distributions, class_tolerances
+from app.studies.uncertainty import assumptions_of, model_distributions
 from solvers.arrays import FloatArray
 
 PROGRESS_S = 0.5  # time between two lines of progress
 KILOWATTS = {"W": 1e-3, "kW": 1.0}  # size of each unit in kilowatts
-RELATIVE_DEVIATION = 0.15  # AGMA 925-A03; taken from a secondary source and not compared with the standard
 LIMIT_VARIES = 1e-9  # relative range of the scuffing temperature above which a note says that the temperature varies
 SHARES_OFF = 0.01  # the sum of the given shares may differ from 1 by at most this amount
-ASSUMED_DEVIATION = (
-    "the scuffing temperature is assumed to be normally distributed, with a standard deviation of 0.15 times its mean "
-    "(AGMA 925-A03, secondary source)"
-)
-
 RARE = 0.005  # if a probability is smaller, its 90 % interval contains the true value in less than 90 % of all samples
 RARE_NOTE = (
     "a probability is below 0.5 %. The results of the replicates are then not distributed symmetrically, and a 90 % "
@@ -81,6 +76,13 @@ class Tolerances(Part):
             default_text="by the quality class of the gears, which also scatters fields that are not listed here",
         ),
     ] = None
+    model_uncertainty: Annotated[
+        bool,
+        Input(
+            "uncertainty of the models",
+            text="also draw what the models do not know well: cooling (the heat band's inputs) and friction",
+        ),
+    ] = False
 
 
 class Threshold(Part):
@@ -152,9 +154,13 @@ class Spectrum(Study):
     - for each limit and each case, the probability of exceeding the limit if the machine runs only this case
     - for each limit and each case, the share of machines for which this case is the worst case (`decides`)
     - for each limit and each field that scatters, the rank correlation between the field and the output in the worst
-      case
+      case, and the share of the variance that the field explains alone (`variance_share`): a rank correlation does not
+      see what costs on both sides of the middle
     - for each output, the mean over the operating time, and the extremes over all machines and cases
     - for each output and each case, the 5, 50 and 95 % quantiles
+
+    The intervals are the error of sampling alone; `tolerances.model_uncertainty` also draws what the models do not know
+    well. `risk` is in the words of AGMA 925-A03, which are about the scuffing temperature; of other limits it is null.
 
     Machines without a solution in some case are counted. If there are such machines, only the `bounds` of the
     probability are known. If no output needs the thermal film, the film is not calculated. A line `progress` comes
@@ -198,7 +204,7 @@ class Spectrum(Study):
             if leaf.path in set_by_cases:
                 message = f"{leaf.path} has both a value in a case and a tolerance; give only one of the two"
                 raise Unprocessable("duplicate_path", message, f"tolerances.inputs.{place}.path")
-        inputs = [*given, *self._by_class(given, base, set_by_cases)]
+        inputs = [*given, *self._added(given, base, set_by_cases)]
         self.scattering = scattering(inputs, base, "tolerances.inputs")
         drawn_from = body.tolerances or Tolerances()
         tolerances = self.tolerances = drawn_from.model_copy(update={"inputs": inputs}) if inputs else None
@@ -219,20 +225,26 @@ class Spectrum(Study):
         self.machines = _machines(tolerances, self.scattering) if tolerances else np.empty((1, 0))
         return total
 
-    def _by_class(self, given: list[Scatter], base: BaseRequest, set_by_cases: Iterable[str]) -> list[Scatter]:
-        """Return the distributions by the quality class of the gears, and note what is assumed by it.
+    def _added(self, given: list[Scatter], base: BaseRequest, set_by_cases: Iterable[str]) -> list[Scatter]:
+        """Return the distributions by the quality class and, if asked for, of the models; note what is assumed by them.
 
-        A field that the body lists or a case sets does not scatter by the class. Raises Unprocessable if the body has
+        A field that the body lists or a case sets does not scatter by them. Raises Unprocessable if the body has
         tolerances, but nothing scatters.
         """
         typical = {scatter.path: next(iter(anchors(scatter).values())) for scatter in given}
         request, taken = base.checked({**typical, **self.body.cases[0].set}), {*typical, *set_by_cases}
         widths = {path: width for path, width in class_tolerances(request).items() if path not in taken}
-        if self.body.tolerances and not (given or widths):
+        asked = self.body.tolerances is not None and self.body.tolerances.model_uncertainty
+        unknown = model_distributions(request) if asked else {}
+        models = [scatter for path, (scatter, _) in unknown.items() if path not in taken]
+        if self.body.tolerances and not (given or widths or models):
             message = "give the distributions of fields that scatter, or a quality class of the gears"
             raise Unprocessable("missing", message, "tolerances.inputs")
-        self.by_class = class_assumptions(request, widths)
-        return [scatter for scatter in class_distributions(request) if scatter.path in widths]
+        self.assumed = [
+            *class_assumptions(request, widths),
+            *assumptions_of(request, unknown, {scatter.path for scatter in models}),
+        ]
+        return [*(scatter for scatter in class_distributions(request) if scatter.path in widths), *models]
 
     def overrides(self, index: int) -> Overrides:
         """Return the values that a point changes in the base request. The keys are the paths of the values.
@@ -284,7 +296,7 @@ class Spectrum(Study):
                 "counts": dict(sorted(tally.counts.items())),
                 "errors": dict(sorted(tally.errors.items())),
                 "warnings": dict(sorted(tally.warnings.items())),
-                "assumptions": [*concluded["assumptions"], *self.by_class, *assumptions],
+                "assumptions": [*concluded["assumptions"], *self.assumed, *assumptions],
                 "elapsed_s": clock.elapsed_s,
             }
         ]
@@ -297,7 +309,7 @@ class Spectrum(Study):
         if self.tolerances is None:
             return None
         inputs = [
-            {**scatter.model_dump(), "unit": leaf.unit, "title": leaf.title, "cut_off": cut(scatter, leaf).cut_off}
+            {**scatter.model_dump(), "unit": leaf.unit, "title": leaf.title, "cut_off": cut_off(scatter, leaf)}
             for scatter, leaf in zip(self.tolerances.inputs or (), self.scattering, strict=True)
         ]
         return {**self.tolerances.model_dump(), "inputs": inputs}
@@ -332,7 +344,7 @@ def evaluated(study: Spectrum, values: FloatArray) -> Line:
                 "unsolved": float(np.isnan(values[:, :, place]).all(axis=-1).mean()),
                 "means": {path: statistics.mean(column[..., place]) for path, column in shown.items()},
                 "quantiles": {path: statistics.quantiles(column[..., place]) for path, column in shown.items()},
-                "limits": [statistics.of_case(columns[limit.output][..., place], limit)._asdict() for limit in limits],
+                "limits": [_case(study, limit, columns[limit.output][..., place], place) for limit in limits],
             }
             for place, case in enumerate(study.cases)
         ],
@@ -341,6 +353,17 @@ def evaluated(study: Spectrum, values: FloatArray) -> Line:
         "notes": notes,
         "assumptions": assumptions,
     }
+
+
+def _case(study: Spectrum, limit: Limit, outputs: FloatArray, place: int) -> Line:
+    """Return the probability of one case as if it were alone."""
+    return _judged(study, limit, statistics.of_case(outputs, limit.of_case(place))._asdict())
+
+
+def _judged(study: Spectrum, limit: Limit, estimate: Line) -> Line:
+    """Return an estimate whose risk is in words only where the words belong: to the scuffing temperature (AGMA)."""
+    paths = BY_PATH[study.question.endpoint].words.scuffing
+    return estimate if paths is not None and limit.output == paths.contact else {**estimate, "risk": None}
 
 
 def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit], list[Line], list[str]]:
@@ -360,12 +383,13 @@ def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit
         return [], [], [missing]
     first = columns[paths.limit][..., 0]
     mean = float(np.nanmedian(temperatures if np.isnan(first).all() else first))  # median over the machines
-    limit = Limit("above", mean, RELATIVE_DEVIATION * abs(mean), paths.contact)
+    varies = bool(np.ptp(temperatures) > LIMIT_VARIES * abs(mean))
+    own = columns[paths.limit] if varies else None
+    limit = Limit("above", mean, RELATIVE_DEVIATION * abs(mean), paths.contact, own)
     assumption = {"field": "limits", "value": limit.deviation, "reason": ASSUMED_DEVIATION}
-    varies = np.ptp(temperatures) > LIMIT_VARIES * abs(mean)
     note = (
-        "the scuffing temperature is not the same in all cases and machines; the median in the first case, "
-        f"{mean:.4g}, is used as the limit. To judge by other values, give limits"
+        "the scuffing temperature is not the same in all cases and machines; each is judged by its own. The median in "
+        f"the first case is {mean:.4g} °C"
     )
     return [limit], [assumption], [note] if varies else []
 
@@ -377,25 +401,31 @@ def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
 
     - the probability that the worst case of a machine is beyond the limit
     - for each case, the share of machines for which this case is the worst case
-    - for each field that scatters, the rank correlation between the field and the output in the worst case
+    - for each field that scatters, the rank correlation between the field and the output in the worst case, and the
+      share of the variance that the field explains alone, which also sees what costs on both sides
     - the quantiles and the histogram of the output in the worst case
     """
     worst = limit.worst(outputs)
     edges, density = statistics.histogram(worst)
     is_solved = ~np.isnan(outputs).any(axis=-1).ravel()
+    machines, decisive = study.machines[is_solved], worst.ravel()[is_solved]
     correlation = {
-        leaf.path: statistics.rank_correlation(column[is_solved], worst.ravel()[is_solved])
-        for leaf, column in zip(study.scattering, study.machines.T, strict=True)
+        leaf.path: statistics.rank_correlation(column, decisive)
+        for leaf, column in zip(study.scattering, machines.T, strict=True)
     }
+    margins = limit.margins(outputs).max(axis=-1).ravel()[is_solved]
+    shares = statistics.variance_shares(machines, margins)
+    variance = dict(zip(paths_of(study.scattering), shares, strict=True))
     return {
         "output": limit.output,
         "side": limit.side,
         "mean": limit.mean,
         "deviation": limit.deviation or None,
-        **statistics.of_spectrum(outputs, limit)._asdict(),
+        **_judged(study, limit, statistics.of_spectrum(outputs, limit)._asdict()),
         "unsolved": 1.0 - float(is_solved.mean()),
         "decides": statistics.deciding(outputs.reshape(-1, outputs.shape[-1]), limit),
         "rank_correlation": correlation or None,
+        "variance_share": variance or None,
         "quantiles": statistics.quantiles(worst),
         "histogram": {"edges": edges, "density": density},
     }

@@ -205,7 +205,7 @@ class Sweep(Study):
                     summary.keep(point.out)
                 lines.append(runner.point_line(index, points.rows[index], point))
             yield lines
-        statistics: Line = {"quantiles": None, "quantile_bounds": None, "rank_correlation": None}
+        statistics: Line = dict.fromkeys(("quantiles", "quantile_bounds", "rank_correlation", "variance_share"))
         if self.body.sample:
             inputs, varied = np.array(points.rows[first:]), paths_of(points.varied)
             statistics = await runner.twice_if_lost(pool, of_sample, inputs, summary.values, varied, outputs)

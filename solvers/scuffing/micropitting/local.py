@@ -75,7 +75,8 @@ def flank_film(
     friction = given.friction_coefficient
     if inputs.friction != "given" or friction is None:
         torque = (distribution.load.face_load_factor or 1.0) * given.load.contact_torque
-        friction = mean_friction(given, distribution.path_of_contact, oil, temperatures.oil, torque)
+        by_law = mean_friction(given, distribution.path_of_contact, oil, temperatures.oil, torque)
+        friction = inputs.friction_factor * by_law
     conditions = Conditions(oil, temperatures.bulk, friction, given.pinion_material, given.wheel_material)
     return FlankFilm(inputs, distribution, conditions, bulk)
 

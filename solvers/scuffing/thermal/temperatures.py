@@ -117,7 +117,8 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
     If the coefficient of friction is given, it is used for the flash temperature and for the losses. If it is not
     given, two coefficients are estimated. The coefficient for the flash temperature is that of ISO/TS 6336-20, which is
     on the safe side for scuffing. The coefficient for the losses is Schlenk's, which is a mean value for the
-    efficiency. If the oil, the load or the speed is missing, both estimates are None.
+    efficiency. Both are multiplied by `friction_factor`. If the oil, the load or the speed is missing, both estimates
+    are None.
     """
     if inputs.friction == "given":
         return inputs, distribution
@@ -127,8 +128,9 @@ def with_friction(inputs: ScuffingInputs, distribution: LoadDistribution) -> tup
         face_load_factor = distribution.load.face_load_factor or 1.0
         lubricant = lubricant_at(oil, inputs.temperatures.oil)
         viscosity = lubricant.viscosity_at(0.0, inputs.temperatures.oil)
-        of_flash = mean_friction(given, path, lubricant_factor(viscosity, lubricant.kind), face_load_factor)
-        of_losses = loss_friction(given, path, viscosity, lubricant.kind)
+        factor, by_oil = inputs.friction_factor, lubricant_factor(viscosity, lubricant.kind)
+        of_flash = factor * mean_friction(given, path, by_oil, face_load_factor)
+        of_losses = factor * loss_friction(given, path, viscosity, lubricant.kind)
     loss = friction_loss(path, distribution.balance, given.load, of_losses)
     rubbing = replace(inputs, distribution=replace(given, friction_coefficient=of_flash))
     return rubbing, replace(distribution, friction_loss=loss)
