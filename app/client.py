@@ -170,6 +170,10 @@ class _Endpoints(ABC, Generic[Answer, Stream]):
         """Solve one endpoint at many points: a grid, a list of cases or a random sample."""
         return self.study("/v1/sweep", request, progress=progress)
 
+    def solve_for(self, request: Json, *, progress: bool = False) -> Stream:
+        """Find the input at which an output has a wanted value, or is least or greatest; the answers are in the end."""
+        return self.study("/v1/solve-for", request, progress=progress)
+
     def spectrum(self, request: Json, *, progress: bool = False) -> Stream:
         """Solve a request with tolerances for a load spectrum. The last line states the probabilities."""
         return self.study("/v1/spectrum", request, progress=progress)

@@ -29,6 +29,10 @@ from app.figures.data import (
 from app.figures.wording import NO_BREAK, difference_unit, listed, number, to_digits
 
 MOST_CURVES = 6  # if a sweep of two fields needs more curves, a map is drawn instead
+SAME = 1e-7  # relative change of an output that the tolerance of an iteration can cause
+NEAR = (
+    0.25  # a line of the verdict is drawn if it lies at most this share of its value outside the values of the figure
+)
 FLAT = 0.5  # an axis does not start at zero if all values are above this share of the largest value
 MOST_ROWS = 12  # largest number of bars in a figure
 NAMED = 3  # largest number of inputs in the finding
@@ -49,6 +53,10 @@ class Coordinate:
     own: float | None = None
     scatters: bool = False
 
+    def is_end(self, index: int) -> bool:
+        """Return whether the value with the given index is the least or the greatest of several numbers."""
+        return not self.words and self.values.size > 1 and index in {0, self.values.size - 1}
+
     def named(self, index: int) -> str:
         """Return the value with the given index as text."""
         return self.words[index] if self.words else number(float(self.values[index]), self.axis.unit)
@@ -59,7 +67,7 @@ class Grid:
     """Values of an output over one field, `[x]`, or over two fields, `[x][y]`.
 
     NaN stands for a point that has no value, or that is not calculated yet. If `greatest` is True, greater values are
-    better. `limit` is the limit of the output.
+    better. `limit` is the limit of the output; beyond the value `good`, the output is well on the safe side of it.
 
     `invalid` and `doubtful` are used only if one field is varied. Both then have an item for each value of this field.
     An item of `invalid` is the reason why the output is not valid, or None if the output is valid. An item of
@@ -72,9 +80,29 @@ class Grid:
     values: Values
     greatest: bool = False
     limit: float | None = None
+    good: float | None = None
     invalid: tuple[str | None, ...] = ()
     doubtful: tuple[bool, ...] = ()
     unsolved: int = 0
+
+    @property
+    def fields(self) -> list[Coordinate]:
+        """The varied fields."""
+        return [self.x] if self.y is None else [self.x, self.y]
+
+    @property
+    def is_constant(self) -> bool:
+        """Whether the output is the same at all of several points."""
+        finite = self.values[np.isfinite(self.values)]
+        return finite.size > 1 and bool(np.ptp(finite) <= SAME * np.abs(finite).max())
+
+    @property
+    def without_effect(self) -> list[Coordinate]:
+        """The fields that do not change the output, if another one does."""
+        if self.y is None or self.is_constant or not np.isfinite(self.values).all():
+            return []
+        least = SAME * float(np.abs(self.values).max())
+        return [field for axis, field in enumerate(self.fields) if np.ptp(self.values, axis=axis).max() <= least]
 
     @property
     def best(self) -> tuple[int, ...] | None:
@@ -99,7 +127,7 @@ def curve(grid: Grid) -> Figure:
     """Draw the output over the varied field."""
     x, own = grid.x, grid.x.own
     line = Line(grid.output.title, x.values, grid.values, named=False)
-    levels, spans, start = _limit(grid), list[Span](), 0
+    levels, spans, start = verdict_lines(grid), list[Span](), 0
     if own is not None and x.values[0] <= own <= x.values[-1]:
         levels.append(Level(own, f"this case: {number(own, x.axis.unit)}", vertical=True))
     for reason, group in groupby(grid.invalid):
@@ -127,7 +155,7 @@ def family(grid: Grid, y: Coordinate) -> Figure:
         for index in range(y.values.size)
     ]
     marks = parts.extreme(lines, grid.output.unit, least=not grid.greatest)
-    panel = Panel(x=grid.x.axis, y=_ordinate(grid), lines=lines, levels=_limit(grid), marks=marks)
+    panel = Panel(x=grid.x.axis, y=_ordinate(grid), lines=lines, levels=verdict_lines(grid), marks=marks)
     title = f"{grid.output.title} over {grid.x.axis.title}, by {y.axis.title}"
     return _figure(grid, title, panel, _finding(grid))
 
@@ -138,7 +166,7 @@ def chart(grid: Grid, y: Coordinate) -> Figure:
     finite = grid.values[np.isfinite(grid.values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     ends = (low, high) if high > low else (low - 0.5, low + 0.5)
-    critical = [] if grid.limit is None else [Level(grid.limit, f"limit {number(grid.limit)}")]
+    critical = [replace(level, limit=False) for level in verdict_lines(grid)]
     colours = Map(output.title, output.unit, x.values, y.values, grid.values.T, critical=critical, range=ends)
     marks = [] if grid.best is None else [parts.extreme_of_map(colours, least=not grid.greatest)]
     if x.own is not None and y.own is not None:
@@ -163,7 +191,7 @@ def worst(grid: Grid, y: Coordinate) -> Figure:
         side = "above" if grid.greatest else "below"
         place = y.named(int(np.flatnonzero(y.values == mark.x)[0]))
         finding = f"{y.axis.title} {place} keeps {grid.output.title} {side} {mark.text}"
-    panel = Panel(x=y.axis, y=_ordinate(grid), lines=lines, levels=_limit(grid), marks=marks)
+    panel = Panel(x=y.axis, y=_ordinate(grid), lines=lines, levels=verdict_lines(grid), marks=marks)
     span = f"{number(float(x.values[0]))} to {number(float(x.values[-1]), x.axis.unit)}"
     return _figure(grid, f"Which {y.axis.title} forgives {x.axis.title} from {span}?", panel, finding)
 
@@ -176,10 +204,15 @@ def _finding(grid: Grid) -> str:
     """Return the best value of the output, and the values of the varied fields at this point, as text."""
     if grid.best is None:
         return ""
-    fields = [grid.x] if grid.y is None else [grid.x, grid.y]
-    places = [f"{field.axis.title} {field.named(index)}" for field, index in zip(fields, grid.best, strict=True)]
-    value = number(float(grid.values[grid.best]), grid.output.unit)
-    return f"{'greatest' if grid.greatest else 'least'} {value} at {', '.join(places)}"
+    value, found = number(float(grid.values[grid.best]), grid.output.unit), [*zip(grid.fields, grid.best, strict=True)]
+    if grid.is_constant:
+        return f"{value} at every point"
+    places = [f"{field.axis.title} {field.named(index)}" for field, index in found]
+    ends = [field.axis.title for field, index in found if field.is_end(index)]
+    told = f"{'greatest' if grid.greatest else 'least'} {value} at {', '.join(places)}"
+    if ends:
+        told += ", where its range ends" if grid.y is None else f"; the range of {listed(ends)} ends there"
+    return told
 
 
 def _ordinate(grid: Grid) -> Axis:
@@ -189,10 +222,16 @@ def _ordinate(grid: Grid) -> Axis:
     return replace(grid.output, magnitude=not flat)
 
 
-def _limit(grid: Grid) -> list[Level]:
+def verdict_lines(grid: Grid) -> list[Level]:
+    """Return the lines of the verdict: the limit, and where the output is well on its safe side, unless that is far."""
     if grid.limit is None:
         return []
-    return [Level(grid.limit, f"limit {number(grid.limit, grid.output.unit)}", limit=True)]
+    unit, finite = grid.output.unit, grid.values[np.isfinite(grid.values)]
+    lines = [Level(grid.limit, f"limit {number(grid.limit, unit)}", limit=True)]
+    good = grid.good
+    if good is not None and finite.size and finite.min() - NEAR * abs(good) <= good <= finite.max() + NEAR * abs(good):
+        lines.append(Level(good, f"well {'above' if grid.greatest else 'below'} it: {number(good, unit)}"))
+    return lines
 
 
 class Crossing(NamedTuple):
@@ -241,6 +280,10 @@ def answer(grid: Grid) -> str:
         return ""
     name, unit = grid.output.title, grid.output.unit
     best = _finding(grid)
+    if grid.is_constant:
+        return f"The {name} does not depend on {'it' if grid.y is None else 'either'}: {best}."
+    if grid.without_effect:
+        best += f". It does not depend on the {grid.without_effect[0].axis.title}"
     kept = finite & (grid.values >= grid.limit if grid.greatest else grid.values <= grid.limit) if grid.limit else None
     if kept is None:
         if grid.y is not None or grid.x.words or not (finite[0] and finite[-1]):

@@ -14,6 +14,7 @@ from app.pages.typesetting import shown, words
 from app.schema.answers import GROUNDS, Response
 from app.schema.fields import ITEM, Branch, Leaf, headlines, leaf_at, tree, value_at
 from app.schema.model import Documented, Request
+from app.schema.quantities import View
 
 NUMERICS = frozenset(
     {
@@ -416,6 +417,18 @@ def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[
     if len(ends) > 1:
         return level, f"at worst {shown(worse, DIGITS)}: {verdict}"
     return level, f"{judge.title}: {verdict}" if judge and said is not None else verdict
+
+
+def verdict_lines(view: View, values: Any) -> tuple[float | None, float | None]:
+    """Return the limit of an output, and where the output is well on the safe side of it; None without such a limit.
+
+    `values` holds the fields that may be the limit.
+    """
+    limit = view.limit if view.bound else None
+    limit = value_at(values, limit) if isinstance(limit, str) else limit
+    if isinstance(limit, bool) or not isinstance(limit, int | float):
+        return None, None
+    return float(limit), (WELL_ABOVE if view.greatest_is_best else NEAR_LIMIT) * limit
 
 
 def _standing(value: float, limit: float, *, greatest_is_best: bool) -> tuple[str, str]:

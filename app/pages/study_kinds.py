@@ -40,13 +40,23 @@ def _named(beginnings: Iterable[str], ends: Iterable[str]) -> frozenset[str]:
 
 AXES = ("x", "y")
 """Names of the axes of a sweep in the form."""
+ALSO = ("show.2", "show.3", "show.4")
+"""Names of the menus of further outputs of a sweep."""
+OIL_TESTS = "oil_tests"
+"""Name of the control that says what happens to the tests of the oil if the oil varies."""
 TOLERANCES = tuple(f"t{place}" for place in range(12))
 """Names of the tolerances of a load spectrum in the form; no more are possible."""
 VARY = StudyLink(
     "vary",
     "Vary",
     "one input or two over a range: a curve or a map",
-    _named(AXES, ("", ".from", ".to", ".count", ".scale")) | {"best"},
+    _named(AXES, ("", ".from", ".to", ".count", ".scale")) | {*ALSO, "best", OIL_TESTS},
+)
+FIND = StudyLink(
+    "find",
+    "Find",
+    "the input at which a result has a wanted value, or is least or greatest",
+    _named("x", ("", ".from", ".to", ".count", ".scale")) | {"goal", "wanted", OIL_TESTS},
 )
 INFLUENCE = StudyLink(
     "influence", "What matters", "every input moved by its tolerance, down and up: which moves the result most"
@@ -72,7 +82,7 @@ DESIGN = StudyLink(
     frozenset(map(control_of, UNCERTAIN)) | _named(("low.", "high."), "01234") | {"trials", "judged", "drawn"},
     DRIVE_TRAIN,
 )
-LINKS = (VARY, INFLUENCE, SPECTRUM, CORNERS, DESIGN)
+LINKS = (VARY, FIND, INFLUENCE, SPECTRUM, CORNERS, DESIGN)
 """The links in the order in which pages show them."""
 
 

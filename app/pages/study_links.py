@@ -1,16 +1,16 @@
-"""The studies of a case, and ready studies, which vary one or two fields of an example.
+"""The studies of a case, and ready studies, which vary one or two fields of an example or seek one.
 
 The ready studies are those of the models' examples.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
 from app.calculations import BY_PATH, Calculation
 from app.examples import examples, studies
 from app.pages.query import Pairs, link, pairs_of
-from app.pages.study_kinds import LINKS, VARY, StudyLink
+from app.pages.study_kinds import FIND, LINKS, VARY, StudyLink
 from app.pages.templating import page_path
 from app.schema.fields import leaf_at, value_at
 
@@ -29,6 +29,7 @@ class StudyExample(NamedTuple):
     source: str
     example: str
     study: dict[str, str]
+    page: str = VARY.name
 
     @property
     def calculation(self) -> Calculation:
@@ -39,7 +40,7 @@ class StudyExample(NamedTuple):
     def address(self) -> str:
         """The address of the page that answers the question."""
         request = examples()[self.example].request
-        return link(f"{page_path(self.calculation)}/{VARY.name}", pairs_of(request), **self.study)
+        return link(f"{page_path(self.calculation)}/{self.page}", pairs_of(request), **self.study)
 
 
 class Starter(NamedTuple):
@@ -53,9 +54,9 @@ class Starter(NamedTuple):
 STUDIES = tuple(StudyExample(**entry) for model in studies() for entry in model.pages)
 
 
-def studies_of(calculation: Calculation) -> list[StudyExample]:
-    """Return the ready studies whose examples belong to a calculation."""
-    return [study for study in STUDIES if study.calculation is calculation]
+def studies_of(calculation: Calculation, *pages: str) -> list[StudyExample]:
+    """Return the ready studies whose examples belong to a calculation: all of them, or those on the named pages."""
+    return [study for study in STUDIES if study.calculation is calculation and study.page in (pages or {study.page})]
 
 
 def studies_of_case(
@@ -64,8 +65,9 @@ def studies_of_case(
     case: Any,
     derived: Mapping[str, Any] = MappingProxyType({}),
     carried: Mapping[str, str | None] = MappingProxyType({}),
+    pages: Sequence[str] = (),
 ) -> list[Starter]:
-    """Return links that apply the ready studies of a calculation to a case.
+    """Return links that apply the ready studies of a calculation to a case; with `pages`, only those on these pages.
 
     `derived` holds values that the case does not state but implies, for example the power that follows from a given
     torque. The keys are the paths of these values. `carried` holds the query fields that go with the case to all its
@@ -75,10 +77,11 @@ def studies_of_case(
 
     - If the case states a value other than zero, or implies a value, the range lies around this value.
     - If the case states zero, or if the field has options and is empty, the range of the example is used.
+    - If the field is sought, no range is needed.
     - Otherwise the list contains no link to the study.
     """
-    address, starters = f"{page_path(calculation)}/{VARY.name}", []
-    for example in studies_of(calculation):
+    starters = []
+    for example in studies_of(calculation, *pages):
         study = dict(example.study)
         axes = [axis for axis in "xy" if axis in study]
         for axis in axes:
@@ -88,8 +91,14 @@ def studies_of_case(
                 study = {name: text for name, text in study.items() if name not in ends}
             elif value is None and isinstance(derived_value, int | float):
                 study |= {end: f"{times * derived_value:.4g}" for end, times in zip(ends, AROUND, strict=True)}
-            elif value is None and not getattr(leaf_at(calculation.request, path), "options", ()):
+            elif value is None and example.page != FIND.name and not _options(calculation, path):
                 break
         else:
+            address = f"{page_path(calculation)}/{example.page}"
             starters.append(Starter(example.title, "", link(address, pairs, **study, **carried)))
     return starters
+
+
+def _options(calculation: Calculation, path: str) -> tuple[Any, ...]:
+    leaf = leaf_at(calculation.request, path)
+    return leaf.options if leaf else ()

@@ -14,7 +14,7 @@ from app.manual.results import place_of
 from app.pages.charts import in_columns
 from app.pages.form import anchor, link_to, title_of
 from app.pages.query import link, pairs_of
-from app.pages.typesetting import cited, shown, symbol, typeset, words
+from app.pages.typesetting import cited, lasting, shown, symbol, typeset, words
 from app.schema.answers import MODEL_VERSION
 
 ASSETS = {file.name: file.read_bytes() for file in files("app.pages").joinpath("static").iterdir()}
@@ -89,6 +89,13 @@ def _environment(root: str) -> Environment:
         "formats": MEDIA_TYPES,
         "place_of": place_of,
     }
-    environment.filters |= {"cited": cited, "shown": shown, "symbol": symbol, "typeset": typeset, "words": words}
+    environment.filters |= {
+        "cited": cited,
+        "lasting": lasting,
+        "shown": shown,
+        "symbol": symbol,
+        "typeset": typeset,
+        "words": words,
+    }
     environment.filters |= {"columns": in_columns, "url": url}
     return environment

@@ -14,6 +14,7 @@ _UNITS = sorted({unit.symbol for unit in UNITS.values()} - {"°"}, key=len, reve
 _WITH_UNIT = re.compile(rf"(?<=\d) ({'|'.join(map(re.escape, _UNITS))}|%)(?![^\W\d_])")
 _MINUS = re.compile(r"(?<![\w)-])-(?=\d)")
 _GROUPED = re.compile(r"(?<=\d) (?=\d{3}(?!\d))")
+STEP_ABOVE_S, MINUTES_ABOVE_S = 10.0, 90.0
 _WORDS = {
     "allowable_misalignment": "permissible misalignment",
     "angular": "angular misalignment",
@@ -66,6 +67,13 @@ def shown(value: object, digits: int = 5) -> str:
             return number(value, digits=digits)
         case _:
             return words(str(value))
+
+
+def lasting(seconds: float) -> str:
+    """Return how long an estimated time is, in whole seconds, steps of five seconds or minutes."""
+    if seconds < STEP_ABOVE_S:
+        return f"{max(round(seconds), 1)} s"
+    return f"{5 * round(seconds / 5.0)} s" if seconds < MINUTES_ABOVE_S else f"{round(seconds / 60.0)} min"
 
 
 def cited(text: str) -> str:

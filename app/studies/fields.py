@@ -118,6 +118,11 @@ def clear_excluded(model: type[Documented], body: dict[str, Any], path: str) -> 
             here.pop(name, None)
 
 
+def is_plain_number(value: Any) -> bool:
+    """Return whether a value is a number; true and false are not numbers."""
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
 def indexed(path: str, case: dict[str, Any]) -> list[str]:
     """Replace every list marker in a path by the indices of the list, and return the resulting paths.
 

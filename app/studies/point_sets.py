@@ -14,7 +14,7 @@ from app.errors import Unprocessable
 from app.schema.fields import Leaf, field_path
 from app.schema.model import Request
 from app.schema.quantities import split_unit
-from app.studies.fields import check_value, not_a_number
+from app.studies.fields import check_value, is_plain_number, not_a_number
 from app.studies.points import BaseRequest, check_count, check_distinct
 from app.studies.requests import (
     LARGEST,
@@ -82,6 +82,15 @@ class PointSet(NamedTuple):
             for axis, value in zip(self.axes, row, strict=True)
             for leaf, own in zip(axis.leaves, _values_of_fields(value, axis.leaves), strict=True)
         }
+
+    def ends(self, index: int) -> list[str]:
+        """Return the paths of the fields of a grid whose range of numbers ends at a point."""
+        found = []
+        for axis, value in zip(self.axes, self.rows[index], strict=bool(self.axes)):
+            numbers: list[Any] = [number for number in axis.values or () if is_plain_number(number)]
+            if len(numbers) > 1 and len(numbers) == len(axis.values or ()) and value in {min(numbers), max(numbers)}:
+                found += [leaf.path for leaf in axis.leaves]
+        return found
 
 
 def _values_of_fields(value: Scalar | list[Scalar], leaves: tuple[Leaf, ...]) -> list[Scalar]:

@@ -114,6 +114,13 @@ class BaseRequest(NamedTuple):
             faults = [fault._replace(pointer=f"/request{fault.pointer}") for fault in error.faults]
             raise InvalidBody(faults) from None
 
+    def described(self) -> Request | None:
+        """Return the validated request without changes; None if it lacks a field that the study varies."""
+        try:
+            return self.checked({})
+        except InvalidBody:
+            return None
+
 
 def check_count(count: int, most: int, place: str) -> None:
     """Raise Unprocessable if a study has more than `most` points."""

@@ -215,6 +215,13 @@ Outputs = Annotated[
 ]
 
 
+OilTests = Literal["by_stage", "held"]
+OIL_TESTS = Input(
+    "tests of the oil",
+    text="if the oil varies: the load stages of its tests stay, or the limits that they prove for the case are held",
+)
+
+
 class StudyRequest(Part):
     """The endpoint of a study and the request that the study varies."""
 

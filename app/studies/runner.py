@@ -12,7 +12,7 @@ from array import array
 from collections import Counter, deque
 from collections.abc import AsyncGenerator, Awaitable, Callable, Iterable, Sequence
 from math import nan
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from app.studies.requests import Overrides
 from solvers.arrays import FloatArray
 
 MOST_POINTS_IN_A_CHUNK = 1000  # limit for points that are solved very fast, so that the answer of a chunk stays small
+LONG_S = 5.0  # how long a study is left is said if it takes longer
 
 Line = dict[str, Any]
 Lines = AsyncGenerator[list[Line], None]
@@ -58,6 +59,14 @@ class Pool(Protocol):
         """Call the function in a process as soon as one is free."""
 
 
+class Progress(NamedTuple):
+    """How many points of a study are solved, and how long the rest will take [s]; None if this is not worth saying."""
+
+    done: int
+    total: int
+    left_s: float | None = None
+
+
 class Clock:
     """The running time of a study and the number of its solved points."""
 
@@ -71,9 +80,19 @@ class Clock:
         """The time since the study began [s], rounded to milliseconds."""
         return round(time.perf_counter() - self._started, 3)
 
+    @property
+    def progress(self) -> Progress:
+        """The progress of the study; the points still to solve are expected to take as long as those solved so far."""
+        elapsed, left = self.elapsed_s, None
+        if self.done:
+            left = elapsed * max(self.total - self.done, 0) / self.done
+        return Progress(self.done, self.total, left if left and elapsed + left > LONG_S else None)
+
     def line(self) -> Line:
         """Return a line with the progress."""
-        return {"type": "progress", "done": self.done, "total": self.total, "elapsed_s": self.elapsed_s}
+        done, total, left = self.progress
+        told = {"type": "progress", "done": done, "total": total, "elapsed_s": self.elapsed_s}
+        return told if left is None else {**told, "left_s": round(left, 1)}
 
     def error(self, code: str, message: str) -> Line:
         """Return the line of an error that ends the study early, log it and count it."""

@@ -178,9 +178,9 @@ POWER = Coordinate(Axis("power", unit="kW"), np.array([100.0, 200.0, 300.0, 400.
     ("limit", "said"),
     [
         (1.0, "The safety crosses its limit 1 at about 240 kW; it is above the limit at 100 kW; greatest 3 at power"),
-        (0.1, "The safety is above its limit 0.1 at every point; greatest 3 at power 100 kW."),
-        (5.0, "The safety is above its limit 5 at no point; greatest 3 at power 100 kW."),
-        (None, "The safety goes from 3 at 100 kW to 0.4 at 400 kW; greatest 3 at power 100 kW."),
+        (0.1, "The safety is above its limit 0.1 at every point; greatest 3 at power 100 kW, where its"),
+        (5.0, "The safety is above its limit 5 at no point; greatest 3 at power 100 kW, where its"),
+        (None, "The safety goes from 3 at 100 kW to 0.4 at 400 kW; greatest 3 at power 100 kW, where its"),
     ],
 )
 def test_a_sweep_answers_in_a_sentence(limit: float | None, said: str) -> None:

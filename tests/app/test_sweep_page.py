@@ -25,11 +25,13 @@ from app.figures.drawing.image import draw, places
 from app.figures.studies import MOST_CURVES, Coordinate, Grid, figures_of
 from app.pages.cases import Asked
 from app.pages.query import VIEW_NAMES, WRITTEN, body_of
+from app.pages.studies import PAGES
 from app.pages.studies import page as pages
 from app.pages.studies.controls import field_choices
 from app.pages.studies.corners import CornersPage
 from app.pages.studies.design import DesignPage
 from app.pages.studies.page import output_choices
+from app.pages.studies.solve_for import SolveForPage
 from app.pages.studies.spectrum import SpectrumPage
 from app.pages.studies.sweep import SweepPage
 from app.pages.study_kinds import control_names
@@ -76,7 +78,7 @@ def solved(found: Asked) -> tuple[SweepPage, list[Line]]:
 
 def study_of(example: StudyExample) -> Asked:
     found = asked_by(example.address)
-    return replace(found, path=found.path.removesuffix("/vary"))
+    return replace(found, path=found.path.removesuffix(f"/{example.page}"))
 
 
 def test_what_a_study_says_is_no_field_of_a_request() -> None:
@@ -90,7 +92,8 @@ def named(words: str) -> StudyExample:
 
 @pytest.mark.parametrize("example", STUDIES, ids=lambda each: each.title)
 def test_every_study_to_start_from_is_one(example: StudyExample) -> None:
-    page = pages.opened(SweepPage, study_of(example), MOST, DEADLINE_S)
+    kind = next(each for each in PAGES if each.link.name == example.page)
+    page = pages.opened(kind, study_of(example), MOST, DEADLINE_S)
     assert page.status == 200
     assert page.page.study is not None
     assert page.tail.rstrip().endswith(b"</html>")
@@ -399,11 +402,14 @@ def test_the_names_of_a_study_are_those_of_its_form() -> None:
     double = asked("starter-turbo-double-helical")
     classed = replace(unit, pairs=[*unit.pairs, ("gears.quality_class", "5")])
     designs = ((DesignPage, unit), (DesignPage, double), (CornersPage, classed))
-    studies = ((SweepPage, varied_one), *designs, (SpectrumPage, scattering))
+    oils = asked(
+        "starter-industrial-micropitting", x="lubricant.iso_vg", show="micropitting.local.safety", wanted="1.2"
+    )
+    studies = ((SweepPage, varied_one), *designs, (SpectrumPage, scattering), (SolveForPage, oils))
     pattern = r'<(?:input|select|textarea)\b[^>]*?\bname="([^"]+)"'
     found = [set(re.findall(pattern, opened(page, case))) for page, case in studies]
     assert set.union(*found) >= control_names()
-    for names, case in zip(found, (varied_one, unit, double, classed, scattering), strict=True):
+    for names, case in zip(found, (varied_one, unit, double, classed, scattering, oils), strict=True):
         assert names - control_names() == {WRITTEN, *dict(case.pairs)}
 
 
@@ -435,9 +441,9 @@ def test_a_curve_says_where_it_crosses_its_limit() -> None:
     power = Coordinate(Axis("power", unit="kW"), np.array([100.0, 200.0, 300.0, 400.0]))
     safety = np.array([3.0, 2.0, 0.5, np.nan])
     figure = figures_of(Grid(power, None, Axis("safety"), safety, greatest=True, limit=1.0))["curve"]
-    assert figure.finding == "crosses its limit at 267 kW; greatest 3 at power 100 kW"
+    assert figure.finding == "crosses its limit at 267 kW; greatest 3 at power 100 kW, where its range ends"
     (crossing,) = [mark for mark in figure.panels[0].marks if mark.text == "267 kW"]
     assert crossing.x == pytest.approx(800.0 / 3.0)
     assert crossing.y == 1.0
     never = figures_of(Grid(power, None, Axis("safety"), safety, greatest=True, limit=0.1))["curve"]
-    assert never.finding == "greatest 3 at power 100 kW"
+    assert never.finding == "greatest 3 at power 100 kW, where its range ends"

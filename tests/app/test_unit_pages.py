@@ -22,6 +22,7 @@ from app.pages.studies.sensitivity import SensitivityPage
 from app.pages.study_links import study_links
 from app.pages.typesetting import shown
 from app.studies.price import coarsest
+from app.studies.runner import Progress
 from tests.support.pages import asked, asked_by, checked, lines_of, opened, whole
 
 UNIT, DOUBLE = "starter-generator-gear-drive-train", "starter-turbo-double-helical"
@@ -253,14 +254,14 @@ def test_the_best_so_far_is_shown_while_the_search_runs_and_when_it_ends_early()
     trials = [line for line in lines if line["type"] == "trial"]
     best = max(trials[:3], key=lambda line: line["objective"])
     error = {"type": "error", "code": "study_deadline", "message": "the study took longer than 1 s", "done": 9}
-    for page in (pages.drawn(study, lines[:4], 9), pages.drawn(study, [*lines[:4], error])):
+    for page in (pages.drawn(study, lines[:4], Progress(9, 12)), pages.drawn(study, [*lines[:4], error])):
         text = unescape(page.decode())
         *corrections, judged = rows_of(text, "Best so far")
         assert [row[2] for row in corrections] == [shown(value, 4) for value in best["at"].values()]
         assert judged[1:3] == [shown(trials[0]["objective"]), shown(best["objective"])]
         assert "Open the unit ground so" in text
         assert "Correction 3 of at most 5" in text
-    assert "9 of " in pages.drawn(study, [], 9).decode()
+    assert "9 of 12 points, about 1 min left" in pages.drawn(study, [], Progress(9, 12, 63.0)).decode()
 
 
 def test_corners_are_those_typed_on_both_pages() -> None:

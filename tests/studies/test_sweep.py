@@ -86,7 +86,7 @@ def test_refused_points_are_lines_and_left_out_of_everything() -> None:
     assert (refused["error"]["pointer"], refused["error"]["code"]) == ("/operation/torque_n_m", "out_of_range")
     assert end["counts"] == {"ok": 2, "refused": 1}
     assert end["ranges"][THRUST]["min"] == [points[0]["out"][0], 1]
-    assert end["best"] == {"index": 1, "at": [3000], "out": points[0]["out"]}
+    assert end["best"] == {"index": 1, "at": [3000], "out": points[0]["out"], "ends": []}
 
 
 def test_an_assumed_value_that_differs_between_points_is_null() -> None:
@@ -235,7 +235,8 @@ def test_a_study_whose_connection_was_lost_goes_on_with_the_same_lines(kind: str
     assert again == {**header, "from_index": 3}
     least = min(rest, key=lambda line: line["out"][0])
     assert end["points"] == len(rest) == header["total"] - 3
-    assert end["best"] == {name: least[name] for name in ("index", "at", "out")}
+    ends = [each["path"] for each in GRID] if kind == "vary" else []
+    assert end["best"] == {name: least[name] for name in ("index", "at", "out")} | {"ends": ends}
     assert end["ranges"][THRUST]["min"] == [least["out"][0], least["index"]]
 
 

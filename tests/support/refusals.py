@@ -9,7 +9,7 @@ from typing import Any
 
 import schemathesis
 
-STUDIES = "/v1/(sweep|sensitivity|spectrum|drive-train/(corners|design))$"
+STUDIES = "/v1/(sweep|solve-for|sensitivity|spectrum|drive-train/(corners|design))$"
 RULES = {
     # One of several ways to say a thing, and what one of them needs.
     "/v1/(coupling|scuffing|drive-train)": (
@@ -54,8 +54,8 @@ RULES = {
     STUDIES: (
         "unknown_endpoint unknown_path unknown_output duplicate_path not_scalar not_continuous not_integer "
         "too_many_points shares above_or_below value_or_mean vary_cases_or_sample values_or_range values_per_field "
-        "ranges_or_inputs minimise_or_maximise not_power_of_two log_needs_positive no_corners direction_missing "
-        "variable_range variable_step path_type scalar_type"
+        "ranges_or_inputs minimise_or_maximise equals_or_extreme not_power_of_two log_needs_positive no_corners "
+        "direction_missing variable_range variable_step path_type scalar_type"
     ),
     "/v1/rexs": "not_rexs unknown_stage",
 }

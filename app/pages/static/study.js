@@ -24,7 +24,8 @@ function choose(control, isKept = () => false) {
   const range = ["from", "to", "scale"].map((part) => document.getElementById(`f.${axis}.${part}`));
   const kept = range.filter(isKept);
   range.filter((part) => !kept.includes(part)).forEach((part) => { part.value = ""; });
-  if (!kept.length && document.querySelector("select[name=x]").value) control.form.requestSubmit();
+  const hasGoal = document.querySelector("select[name=goal]");  // a search also needs its goal
+  if (!kept.length && !hasGoal && document.querySelector("select[name=x]").value) control.form.requestSubmit();
 }
 
 // Whether a user changed a control since the server sent the page.

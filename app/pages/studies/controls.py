@@ -10,7 +10,7 @@ from app.calculations import Calculation
 from app.pages.typed import number_of, text_of
 from app.pages.typesetting import shown
 from app.schema.fields import Leaf, leaves, nested, tree, value_at
-from app.studies.fields import NUMBERS, indexed
+from app.studies.fields import NUMBERS, indexed, is_plain_number
 
 Options = tuple[tuple[str, str], ...]
 
@@ -106,11 +106,6 @@ def numbered(title: str, path: str) -> str:
     return f"{title} {'.'.join(places)}" if places else title
 
 
-def is_number(value: Any) -> bool:
-    """Return whether a value is a number; true and false are not numbers."""
-    return isinstance(value, int | float) and not isinstance(value, bool)
-
-
 def choices_of(leaf: Leaf) -> list[Any]:
     """Return the values of a field that accepts only a fixed set of values; an empty list for any other field."""
     return [True, False] if leaf.kind == "boolean" else list(leaf.options)
@@ -118,4 +113,4 @@ def choices_of(leaf: Leaf) -> list[Any]:
 
 def has_numbers(leaf: Leaf) -> bool:
     """Return whether a field takes numbers. Only such a field can be varied along an axis of numbers."""
-    return leaf.kind in NUMBERS or any(map(is_number, leaf.options))
+    return leaf.kind in NUMBERS or any(map(is_plain_number, leaf.options))

@@ -22,7 +22,7 @@ from app.pages.pair_path import path_of
 from app.pages.query import LONGEST_QUERY, link, pairs_of, written_of
 from app.pages.results import NOT_RESULTS
 from app.pages.studies.controls import Choice, Control, Menu, Options, body_of
-from app.pages.study_kinds import CASES, DESIGN, StudyLink, control_names
+from app.pages.study_kinds import CASES, DESIGN, FIND, OIL_TESTS, StudyLink, control_names
 from app.pages.study_links import Starter, StudyExample
 from app.pages.templating import examples_of, rendered
 from app.pages.typed import as_typed, question, text_of
@@ -30,9 +30,10 @@ from app.pages.views import report as case_report
 from app.schema.fields import ITEM, Leaf, headlines, leaf_at, leaves, tree
 from app.sources import SHORT_SOURCES
 from app.studies.fields import NUMBERS, scalar_at
+from app.studies.oil_tests import NAME
 from app.studies.points import reduced_request, with_overrides
 from app.studies.requests import Overrides, Scalar
-from app.studies.runner import Line, Study
+from app.studies.runner import Line, Progress, Study
 
 FRAMES = "<!-- the figures -->"
 OUTPUT = Control("show", "outputs", sets=False)
@@ -40,12 +41,21 @@ OUTPUT = Control("show", "outputs", sets=False)
 
 
 class Controls(NamedTuple):
-    """A group of controls in a study's form. If `about` is not empty, each of the controls stands on its own line."""
+    """A group of controls in a study's form. If `about` is not empty, each of the controls stands on its own line.
+
+    The menus in `more` are folded until one of them has a choice.
+    """
 
     title: str
     menu: Menu | None = None
     fields: tuple[FieldView, ...] = ()
     about: str = ""
+    more: tuple[Menu, ...] = ()
+
+    @property
+    def menus(self) -> tuple[Menu, ...]:
+        """All menus of the group."""
+        return (self.menu, *self.more) if self.menu else self.more
 
 
 class Number(str):
@@ -112,6 +122,8 @@ class StudyPage(ABC):
     grows
         Whether the page shows a result while the study runs. If not, the page shows only the progress until the study
         has ended.
+    shows_title
+        Title of the group of controls with the menu of outputs.
     needs, choose
         Controls of which at least one must be filled in to start a study, and the sentence that asks the user to do so.
     plan
@@ -135,6 +147,7 @@ class StudyPage(ABC):
     grows = False
     needs: tuple[str, ...] = ()
     choose = ""
+    shows_title = "Show"
     plan: type[Study]
 
     def __init__(self, asked: Asked) -> None:
@@ -158,6 +171,10 @@ class StudyPage(ABC):
 
     def shows(self) -> tuple[FieldView, ...]:
         """Return the form fields that stand next to the menu of outputs. The base class has no such fields."""
+        return ()
+
+    def also_shows(self) -> tuple[Menu, ...]:
+        """Return menus of further outputs. The base class has none."""
         return ()
 
     def declared(self) -> tuple[Control, ...]:
@@ -192,11 +209,14 @@ class StudyPage(ABC):
     @cached_property
     def output(self) -> Leaf:
         """The output that the page shows. Raises Unprocessable if the query names an output that is not a number."""
-        path = self.views.get("show") or self.usual_output.path
-        output = scalar_at(self.calculation.response, path, "outputs.0", "unknown_output")
+        return self.output_at(self.views.get("show") or self.usual_output.path, "outputs.0")
+
+    def output_at(self, path: str, place: str) -> Leaf:
+        """Return the output at a path; raise Unprocessable at `place` if the path leads to no number."""
+        output = scalar_at(self.calculation.response, path, place, "unknown_output")
         if output.kind not in NUMBERS:
-            raise Unprocessable("unknown_output", f"{output.title} is not a number; choose another output", "outputs.0")
-        return output
+            raise Unprocessable("unknown_output", f"{output.title} is not a number; choose another output", place)
+        return next((end for end in worst_ends(self.calculation).values() if end.path == path), output)
 
     def menu(self, name: str, label: str, empty: str, choices: list[Choice]) -> Menu:
         """Return a menu of the given choices. If the query names another choice, the menu also has this choice."""
@@ -247,6 +267,20 @@ class StudyPage(ABC):
     def too_long(self) -> bool:
         """Whether the query of this page is too long for a link."""
         return len(self.view("").partition("?")[2]) > LONGEST_QUERY
+
+    def other(self, kind: StudyLink, **changes: str) -> str:
+        """Return the address of a study of this case, with the controls of this page and some changes."""
+        views = {name: text for name, text in self.views.items() if name in kind.controls | {"show", "theme"}}
+        return link(f"{self.asked.path}/{kind.name}", self.asked.pairs, **(views | changes))
+
+    def oil_links(self, *, held: bool) -> tuple[Link, ...]:
+        """Return links to what a study over the oil can do about the tests of the oil, other than what it does."""
+        other = Link("Let the limits follow the stages", self.other(self.link, **{OIL_TESTS: "by_stage"}))
+        if not held:
+            other = Link("Hold the limits of the case", self.other(self.link, **{OIL_TESTS: "held"}))
+        return other, Link(
+            "Compare oils with stages of their own", self.other(FIND, x=NAME, **{"x.from": "", "x.to": ""})
+        )
 
     def image(self, figure: str, image_format: str) -> str:
         """Return the address at which a figure of the study can be downloaded as a file."""
@@ -302,8 +336,9 @@ def opened(kind: type[StudyPage], asked: Asked, most: int, deadline_s: float) ->
         texts = {name: text for name, text in asked.views.items() if name != CASES}
         page.faults = [FormFault(name, question(texts.get(name, "")) or message) for name, message in at_controls]
     show = page.menu("show", "output", page.usual_output.title, output_choices(page.calculation))
-    groups = (*page.controls(), Controls("Show", show, page.shows()))
-    controls = {control.name for group in groups for control in (group.menu, *group.fields) if control}
+    groups = (*page.controls(), Controls(page.shows_title, show, page.shows(), more=page.also_shows()))
+    controls = {menu.name for group in groups for menu in group.menus}
+    controls |= {field.name for group in groups for field in group.fields}
     texts = {field.name: field.text for group in groups for field in group.fields} | asked.views
     content = rendered(
         "study.html",
@@ -334,14 +369,27 @@ def output_choices(calculation: Calculation) -> list[Choice]:
     response = calculation.response
     first = headlines(response)
     titles = {branch.path: branch.title for branch in tree(response).branches}
-    choices = []
+    choices, worst = [], worst_ends(calculation)
     for leaf in (*first, *(leaf for leaf in leaves(response) if leaf not in first)):
         section, *inner = leaf.path.split(".")
         is_single = leaf.is_scalar and leaf.kind in NUMBERS and leaf.detail == "summary" and ITEM not in inner
         if is_single and section not in NOT_RESULTS:
             group = "numbers that decide" if leaf in first else titles.get(section, "result")
             choices.append(Choice(leaf.path, titled(leaf), group))
+            if end := worst.get(leaf.path):
+                choices.append(Choice(end.path, titled(end), group))
     return choices
+
+
+def worst_ends(calculation: Calculation) -> dict[str, Leaf]:
+    """Return the worst ends of the bands of headline numbers, by the paths of the headline numbers."""
+    ends = {}
+    for leaf in headlines(calculation.response):
+        if leaf.view.band:
+            path = f"{leaf.view.band}.{0 if leaf.view.greatest_is_best else 1}"
+            view = replace(leaf.view, headline=None, verdict=None, band=None)
+            ends[leaf.path] = replace(leaf, path=path, title=f"{leaf.title} at the worst end", view=view)
+    return ends
 
 
 def titled(leaf: Leaf) -> str:
@@ -349,17 +397,16 @@ def titled(leaf: Leaf) -> str:
     return f"{leaf.title}, {leaf.unit}" if leaf.unit else leaf.title
 
 
-def drawn(page: StudyPage, lines: list[Line], done: int | None = None) -> bytes:
+def drawn(page: StudyPage, lines: list[Line], progress: Progress | None = None) -> bytes:
     """Return the result of a study as HTML with figures, tables and links.
 
-    While the study runs, `done` is the number of solved points. If the study ended early, the HTML begins with the
-    reason.
+    `progress` is given while the study runs. If the study ended early, the HTML begins with the reason.
     """
     *before, last = lines or [{"type": "progress"}]
     ended_early = last["type"] == "error"
     has_result = last["type"] == "end" or (page.grows and (before if ended_early else lines))
     result = page.result(lines) if has_result else Result("")
-    grows = done is not None and not ended_early
+    grows = progress is not None and not ended_early
     charts = [embedded(name, figure, page.asked.theme, grows=grows) for name, figure in result.figures.items()]
     if charts:
         charts[0] = replace(charts[0], study=result.script)
@@ -369,7 +416,7 @@ def drawn(page: StudyPage, lines: list[Line], done: int | None = None) -> bytes:
         page=page,
         found=result,
         problem=last["message"] if ended_early else "",
-        done=last["done"] if ended_early else done,
+        progress=Progress(last["done"], page.study.total) if ended_early else progress,
         charts=charts,
     ).encode()
 
@@ -382,9 +429,9 @@ def file(page: StudyPage, lines: list[Line], name: str, image_format: Format) ->
     return written(result.figures[name], image_format, page.asked.theme or "light")
 
 
-def report_progress(page: StudyPage, done: int, *, has_ended: bool = False, problem: str = "") -> bytes:
+def report_progress(page: StudyPage, progress: Progress, *, has_ended: bool = False, problem: str = "") -> bytes:
     """Return the part of the document with the number of solved points, or with the reason why there is no report."""
-    content = {"page": page, "done": done, "has_ended": has_ended, "problem": problem}
+    content = {"page": page, "progress": progress, "has_ended": has_ended, "problem": problem}
     return rendered("report_points.html", page.asked.root, **content).encode()
 
 
@@ -398,6 +445,6 @@ def report(page: StudyPage, lines: list[Line], host: str) -> bytes:
     shown = case_report(page.asked, host, section)
     if shown.status != HTTPStatus.OK:
         problem = "The case that the study varies cannot be calculated. The page of this case states the reason."
-        return report_progress(page, page.study.total, problem=problem)
+        return report_progress(page, Progress(page.study.total, page.study.total), problem=problem)
     head, _, body = shown.content.partition(b"<body>")
     return head[head.index(b"<style>") : head.index(b"</head>")] + body

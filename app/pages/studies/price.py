@@ -1,7 +1,6 @@
 """The price of a tolerance on the page "what to grind": verdict, tables and figures of the probabilities by class."""
 
 from collections.abc import Sequence
-from math import ceil
 from typing import Any
 
 from app.figures.data import Figure, Hue, Row
@@ -9,12 +8,11 @@ from app.figures.spectrum import chance_text
 from app.figures.studies import dominating, price
 from app.figures.wording import percent
 from app.pages.studies.page import Number, Table
-from app.pages.typesetting import shown
+from app.pages.typesetting import lasting, shown
 from app.studies.price import MICROPITTING, MORE, SCUFFING
 from app.studies.requests import Overrides
-from app.studies.runner import Line
+from app.studies.runner import LONG_S, Line
 
-LONG = 5.0  # s; studies that take less need no word about the time that is left
 NAMED = 8  # inputs in the table of what dominates
 NO_PRICE = (
     "How exactly it must be ground is not known: state a scuffing temperature, a scuffing test or a micropitting test, "
@@ -135,5 +133,5 @@ def time_left(study: Any, trials: Sequence[Line], rows: Sequence[Line]) -> str:
     else:
         left = (study.total - solved) * elapsed / solved
         doing = f"correction {len(trials)} of at most {study.body.evaluations}"
-    most = f"; at most {ceil(left)} s more" if elapsed + left > LONG else ""
+    most = f"; at most {lasting(left)} more" if elapsed + left > LONG_S else ""
     return f"{doing[0].upper()}{doing[1:]}{most}."

@@ -18,7 +18,7 @@ from app.figures.wording import difference_unit, number, percent
 from app.pages.cases import FILE_NAMES, REFUSED
 from app.pages.form import FieldView
 from app.pages.query import Pairs, link, pairs_of
-from app.pages.studies.controls import Control, field_choices, is_number, texts_of
+from app.pages.studies.controls import Control, field_choices, texts_of
 from app.pages.studies.load_cases import cases_of, suggested, table_of
 from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table
 from app.pages.study_kinds import CASES, SPECTRUM, TOLERANCES
@@ -27,7 +27,7 @@ from app.pages.templating import page_path
 from app.pages.typed import as_typed, number_of, text_of
 from app.pages.typesetting import cited, shown
 from app.schema.fields import Leaf, leaf_at, value_at
-from app.studies.fields import scalar_at
+from app.studies.fields import is_plain_number, scalar_at
 from app.studies.kinds.spectrum import Spectrum
 from app.studies.points import SOLVED, BaseRequest
 from app.studies.runner import Line
@@ -209,7 +209,7 @@ class SpectrumPage(StudyPage):
             (about, "the value around which the field scatters"),
             (by, "the amount by which the field scatters"),
         ):
-            if not is_number(value):
+            if not is_plain_number(value):
                 raise Unprocessable("missing", f"{leaf.title}: give {lacks}", where)
         return {"path": leaf.path, "distribution": law, **_stated(law, about, by)}
 
@@ -429,7 +429,7 @@ class SpectrumPage(StudyPage):
 
 def _usual(leaf: Leaf | None, value: Any) -> float | None:
     """Return the declared tolerance of a field at its value in the case; None without one."""
-    return leaf.declared.tolerance_of(value if is_number(value) else 0.0) if leaf else None
+    return leaf.declared.tolerance_of(value if is_plain_number(value) else 0.0) if leaf else None
 
 
 def _deviation(value: float | None, unit: str | None, digits: int) -> str:

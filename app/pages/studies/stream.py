@@ -33,7 +33,7 @@ async def pieces(pool: Callable[[], Pool], opened: Opened, lines: Lines, clock: 
             received += [line for line in group if line["type"] != "progress"]
             has_ended = bool(received) and received[-1]["type"] in {"end", "error"}
             if clock.done and clock.elapsed_s >= due and not has_ended:
-                yield await _part(pool(), drawn, opened.page, received, clock.done)
+                yield await _part(pool(), drawn, opened.page, received, clock.progress)
                 due = clock.elapsed_s + min(max(FRAME_SHARE * clock.elapsed_s, FIRST_FRAME_S), LONGEST_PAUSE_S)
     yield await _part(pool(), drawn, opened.page, received)
     yield opened.tail
@@ -43,21 +43,21 @@ async def report_pieces(
     pool: Callable[[], Pool], page: StudyPage, host: str, lines: Lines, clock: Clock
 ) -> AsyncGenerator[bytes, None]:
     """Yield the parts of a document that first shows the progress of a study, and finally the report of the study."""
-    yield rendered("report_progress.html", page.asked.root, page=page).encode() + report_progress(page, 0)
+    yield rendered("report_progress.html", page.asked.root, page=page).encode() + report_progress(page, clock.progress)
     received, due = list[Line](), FIRST_FRAME_S
     async with aclosing(lines):
         async for group in lines:
             received += [line for line in group if line["type"] != "progress"]
             if clock.elapsed_s >= due:
-                yield report_progress(page, clock.done)
+                yield report_progress(page, clock.progress)
                 due = clock.elapsed_s + FIRST_FRAME_S
     last = received[-1]
     if last["type"] == "error":
         ended = f"The study ended after {last['done']} of {page.study.total} points. {last['message']}"
-        yield report_progress(page, last["done"], problem=ended)
+        yield report_progress(page, clock.progress, problem=ended)
         return
-    yield report_progress(page, clock.done, has_ended=True)
-    failed = report_progress(page, clock.done, problem="The report could not be written; try again.")
+    yield report_progress(page, clock.progress, has_ended=True)
+    failed = report_progress(page, clock.progress, problem="The report could not be written; try again.")
     yield await _part(pool(), report, page, received, host, failed=failed)
 
 

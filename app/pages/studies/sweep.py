@@ -6,6 +6,7 @@ The page draws a curve, several curves or a map while the points arrive.
 import json
 from collections import Counter
 from collections.abc import Sequence
+from functools import cached_property
 from math import ceil, floor, inf, isfinite, nan
 from typing import Any
 
@@ -17,14 +18,14 @@ from app.figures.studies import Coordinate, Grid, answer, figures_of
 from app.figures.units import axis_of
 from app.pages.charts import for_phones
 from app.pages.form import FieldView
-from app.pages.studies.controls import Control, choices_of, field_choices, has_numbers
-from app.pages.studies.controls import is_number as is_plain_number
-from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table, titled
-from app.pages.study_kinds import AXES, VARY
+from app.pages.results import verdict_lines
+from app.pages.studies.controls import Control, Menu, choices_of, field_choices, has_numbers
+from app.pages.studies.page import Controls, Link, Number, Result, StudyPage, Table, output_choices, titled
+from app.pages.study_kinds import ALSO, AXES, OIL_TESTS, VARY
 from app.pages.study_links import Starter, StudyExample, studies_of, studies_of_case
 from app.pages.typesetting import shown, words
 from app.schema.fields import Leaf, leaf_at, value_at
-from app.studies.fields import scalar_at
+from app.studies.fields import is_plain_number, scalar_at
 from app.studies.kinds.sweep import Sweep
 from app.studies.point_sets import CheckedAxis
 from app.studies.points import SOLVED
@@ -35,6 +36,7 @@ TOLERANCES = 4.0  # half the width of a field's usual range if the value is zero
 INSIDE = 1e-3  # distance of a usual end from a bound that is not itself permissible, as a share of the range
 COUNTS = {"x": 21, "y": 5}  # default numbers of points: 21 make a smooth curve, and 5 curves are easy to tell apart
 MOST_WHOLE = 10_000  # largest number of whole numbers on an axis
+OF_FURTHER = tuple(f"-{place}" for place in range(2, 2 + len(ALSO)))  # ends of the names of further outputs' figures
 FIRST = "vary.0"  # location of the first axis, which is the abscissa of the curves
 MOST_ROWS = 200  # largest number of rows of a table on a page; the file has all rows
 MOST_REASONS = 6  # largest number of remarks about points on a page; the most frequent remarks are shown
@@ -48,6 +50,14 @@ AXIS = (
     Control(".scale", "scale", "linear", str, label="steps", options=(("", "even steps"), ("log", "even ratios"))),
 )
 """The controls of an axis. The name and the path of the axis are put before the name and the path of a control."""
+HELD = Control(
+    OIL_TESTS,
+    "oil_tests",
+    None,
+    str,
+    label="if the oil varies",
+    options=(("", "its test stages stay"), ("held", "its limits are held")),
+)
 
 
 class SweepPage(StudyPage):
@@ -56,7 +66,7 @@ class SweepPage(StudyPage):
     link = VARY
     question = "vary an input"
     about = "The calculation is repeated for many values. Every point is a case that can be opened."
-    figures = ("curve", "family", "map", "worst")
+    figures = tuple(f"{name}{of}" for of in ("", *OF_FURTHER) for name in ("curve", "family", "map", "worst"))
     grows = True
     needs = AXES
     choose = (
@@ -104,7 +114,8 @@ class SweepPage(StudyPage):
         An error of a whole axis is shown at the control for the start of this axis. An error of the list of axes is
         shown at the control `x.count`.
         """
-        controls = [Control("x.count", "vary", sets=False)]
+        controls = [Control("x.count", "vary", sets=False), HELD]
+        controls += [Control(name, f"outputs.{place}", sets=False) for place, name in enumerate(self.further, start=1)]
         for place, name in enumerate(AXES):
             path = self.views.get(name, "")
             usual: dict[str, Any] = {"count": COUNTS[name]}
@@ -151,6 +162,22 @@ class SweepPage(StudyPage):
         return {**axis, "values": np.unique(spread(start, stop, count).round()).astype(int).tolist(), "scale": scale}
 
     @property
+    def further(self) -> list[str]:
+        """The names of the menus of further outputs in which an output is chosen."""
+        return [name for name in ALSO if self.views.get(name)]
+
+    @cached_property
+    def shown_outputs(self) -> list[Leaf]:
+        """The outputs that the page shows, at most four; the first of them decides which point is best."""
+        paths = [(self.views[name], f"outputs.{place}") for place, name in enumerate(self.further, start=1)]
+        return [self.output, *(self.output_at(path, place) for path, place in paths)]
+
+    def also_shows(self) -> tuple[Menu, ...]:
+        """Return the menus of the second, third and fourth output."""
+        choices, ranks = output_choices(self.calculation), ("second", "third", "fourth")
+        return tuple(self.menu(name, f"{rank} output", "none", choices) for rank, name in zip(ranks, ALSO, strict=True))
+
+    @property
     def is_greatest_best(self) -> bool:
         """True if the greatest value of the output is the best value.
 
@@ -164,7 +191,7 @@ class SweepPage(StudyPage):
 
     def body(self) -> dict[str, Any]:
         """Return the body with the axes, the output that the page shows, and the criterion for the best point."""
-        goal = "maximise" if self.is_greatest_best else "minimise"
+        goal, given = "maximise" if self.is_greatest_best else "minimise", self.given()
         x, y = map(self.views.get, AXES)
         if y and not x:
             raise Unprocessable("missing", "choose the first field to vary before the second field", "vary.0.path")
@@ -173,9 +200,10 @@ class SweepPage(StudyPage):
         return {
             "endpoint": self.calculation.path,
             "request": self.asked.body,
-            "vary": [self._axis(axis, f"vary.{place}") for place, axis in enumerate(self.given().get("vary", []))],
-            "outputs": [self.output.path],
+            "vary": [self._axis(axis, f"vary.{place}") for place, axis in enumerate(given.get("vary", []))],
+            "outputs": [leaf.path for leaf in self.shown_outputs],
             "best": {goal: self.output.path},
+            **{name: part for name, part in given.items() if name == HELD.path},
         }
 
     def controls(self) -> tuple[Controls, ...]:
@@ -198,56 +226,67 @@ class SweepPage(StudyPage):
     def shows(self) -> tuple[FieldView, ...]:
         """Return the menu with which the user states the best value of the output."""
         ends = (("", "by the output"), ("least", "least"), ("greatest", "greatest"))
-        return (self.field("best", "the best is", options=ends),)
+        held = (self.field_of(HELD),) if self.views.get(HELD.name) or (self.study and self.study.tests) else ()
+        return (self.field("best", "the best is", options=ends), *held)
 
     def starters(self) -> Sequence[Starter | StudyExample]:
         """Return links to ready studies."""
         if not self.asked.pairs:
-            return studies_of(self.calculation)
-        return studies_of_case(self.calculation, self.asked.pairs, self.case)
+            return studies_of(self.calculation, VARY.name)
+        return studies_of_case(self.calculation, self.asked.pairs, self.case, pages=[VARY.name])
 
     def result(self, lines: list[Line]) -> Result:
         """Return the figures. After the end of the study, also return a table of the points."""
         received = [line for line in lines if line["type"] == "point"]
-        grid = self._grid(received)
-        figures = figures_of(grid)
-        first = next(iter(figures))
+        grids = [self._grid(received, column) for column in range(len(self.shown_outputs))]
+        figures = {
+            f"{name}{of}": figure
+            for of, grid in zip(("", *OF_FURTHER), grids, strict=False)
+            for name, figure in figures_of(grid).items()
+        }
+        first, grid = next(iter(figures)), grids[0]
         if lines[-1]["type"] in {"sweep", "point"}:  # the study still runs
-            return Result("", {first: figures[first]})
+            return Result("", {name: figure for name, figure in figures.items() if not name.startswith("worst")})
         progress = f"{len(received)} points in {shown(lines[-1].get('elapsed_s'), 2)} s"
         reasons = Counter(text for line in received for text in _remarks(line)).most_common(MOST_REASONS)
         return Result(
             progress + (f"; {grid.unsolved} without solution" if grid.unsolved else ""),
             figures,
             (self._table(received),),
-            tuple(f"{text} at {count} of {len(received)} points" for text, count in reasons),
+            (
+                *(f"{remark}." for remark in self.study.remarks()),
+                *(f"{text} at {count} of {len(received)} points" for text, count in reasons),
+            ),
+            self.oil_links(held=bool(self.study.held)) if self.study.tests else (),
             script=self._script(received, figures[first]),
-            answer=answer(grid),
+            answer=" ".join([answer(grid), *(answer(each) for each in grids[1:] if each.is_constant)]),
         )
 
-    def _grid(self, received: list[Line]) -> Grid:
-        """Return the data of the figures.
+    def _grid(self, received: list[Line], column: int) -> Grid:
+        """Return the data of the figures of an output, which stands in a column of the points.
 
-        The values of the study's output are NaN at points without solution and at points that have not yet arrived.
+        The values of the output are NaN at points without solution and at points that have not yet arrived.
         """
+        output = self.shown_outputs[column]
         points = self.study.points
         outputs = np.full(points.total, nan)
-        outputs[: len(received)] = [nan if line["out"][0] is None else float(line["out"][0]) for line in received]
+        outputs[: len(received)] = [
+            nan if line["out"][column] is None else float(line["out"][column]) for line in received
+        ]
         coordinates, orders = zip(*map(self._coordinate, AXES, points.varied, points.axes), strict=True)
         is_whole_curve = len(coordinates) == 1 and len(received) == points.total
         sorted_points = [received[place] for place in orders[0]] if is_whole_curve else []
         invalid = tuple(_invalid(line) for line in sorted_points)
         doubtful = tuple("doubtful" in line["ranks"] for line in sorted_points)
-        limit = self.output.view.limit if self.output.view.bound else None
-        if isinstance(limit, str):  # the path of a field of the case
-            limit = value_at(self.case, limit)
+        limit, good = verdict_lines(output.view, self.case)
         return Grid(
             x=coordinates[0],
             y=coordinates[1] if len(coordinates) > 1 else None,
-            output=axis_of(self.output),
+            output=axis_of(output),
             values=values(outputs.reshape([len(order) for order in orders])[np.ix_(*orders)]),
-            greatest=self.is_greatest_best,
-            limit=float(limit) if isinstance(limit, int | float) else None,
+            greatest=output.view.greatest_is_best if column else self.is_greatest_best,
+            limit=limit,
+            good=good,
             invalid=invalid if len(set(invalid)) > 1 else (),
             doubtful=doubtful if len(set(doubtful)) > 1 else (),
             unsolved=sum(line["status"] not in SOLVED for line in received),
@@ -276,15 +315,15 @@ class SweepPage(StudyPage):
             at = [shown(coordinate, 6) for coordinate in line["at"]]
             status, remarks = line["status"].replace("_", " "), ", ".join(_remarks(line))
             link = Link("open", self.point_address(line["index"]), f"open the case at {', '.join(at)}")
-            rows.append((*at, shown(line["out"][0]), f"{status}: {remarks}" if remarks else status, link))
-        titles = [Number(titled(leaf)) for leaf in (*self.study.points.varied, self.output)]
+            rows.append((*at, *map(shown, line["out"]), f"{status}: {remarks}" if remarks else status, link))
+        titles = [Number(titled(leaf)) for leaf in (*self.study.points.varied, *self.shown_outputs)]
         more = len(received) - MOST_ROWS
         note = f"and {more} more points in the CSV file" if more > 0 else ""
         return Table("Points", (*titles, "status", "case"), rows, note, folded=True)
 
     def point_address(self, index: int) -> str:
         """Return the address of the page that shows the case at a point."""
-        return self.address(self.study.points.overrides(index))
+        return self.address({**self.study.held, **self.study.points.overrides(index)})
 
     def _script(self, received: list[Line], figure: Figure) -> str:
         """Return the data for the script of the page, as JSON. The script opens the case at the mouse pointer."""

@@ -25,6 +25,7 @@ class CornersRequest(DriveTrainStudy):
 
     sample: ClassVar[None] = None
     best: ClassVar[None] = None
+    oil_tests: ClassVar[str] = "by_stage"
 
     ranges: Annotated[Ranges, Input("ranges", text=RANGES, default_text=USUAL_RANGES)] = None
     outputs: Outputs = None

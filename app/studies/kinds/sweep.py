@@ -18,17 +18,21 @@ from app.schema.reading import did_you_mean
 from app.spreadsheet import csv_of
 from app.studies import runner
 from app.studies.fields import is_number
+from app.studies.oil_tests import hold, remarks_on, tests_moved
 from app.studies.point_sets import CheckedAxis, PointSet, drawn, grid, listed, scattering, unit_cube
 from app.studies.points import BaseRequest, Point, check_count
 from app.studies.requests import (
     COUNT,
     METHOD,
+    OIL_TESTS,
     Axis,
     Cases,
     FieldPath,
     FromIndex,
     Inputs,
     Method,
+    OilTests,
+    Overrides,
     Part,
     Range,
     Scatter,
@@ -88,6 +92,7 @@ class SweepRequest(StudyRequest):
     cases: Annotated[Cases, Input("cases", text="what each case changes")] = None
     sample: Annotated[Sample | None, Input("random sample")] = None
     best: Annotated[Best | None, Input("best point", text="which point to pick at the end")] = None
+    oil_tests: Annotated[OilTests, OIL_TESTS] = "by_stage"
     from_index: FromIndex = 0
 
 
@@ -148,8 +153,12 @@ class Sweep(Study):
     A stream that has neither `end` nor `error` was cut off. A request with `from_index` continues the study. The points
     stay the same, and the lines start at the point with this index.
 
-    For a random sample, the line `end` has the 5, 50 and 95 % quantiles. The member `quantile_bounds` of this line has
-    the 90 % confidence intervals of the quantiles.
+    A load stage of a test belongs to one oil. If the oil varies, `remarks` of the line `end` say so. With `oil_tests`
+    set to `held`, every point has the limits that the stages prove for the oil of the case; the first line has them.
+
+    `ends` of the best point of a grid are the fields whose range ends there. For a random sample, the line `end` has
+    the 5, 50 and 95 % quantiles. The member `quantile_bounds` of this line has the 90 % confidence intervals of the
+    quantiles.
     """
 
     path = "/v1/sweep"
@@ -167,8 +176,15 @@ class Sweep(Study):
             total = self.points.total
             message = f"this point does not exist; the study has {total} points, numbered from 0 to {total - 1}"
             raise Unprocessable("out_of_range", message, "from_index")
-        base.checked(self.points.overrides(0))
+        request = base.checked(self.points.overrides(0))
+        varied = paths_of(self.points.varied)
+        self.tests = tests_moved(base.described() or request, varied, paths_of(self.outputs))
+        self.held: Overrides = {}
         return self.points.total - first
+
+    def overrides(self, index: int) -> Overrides:
+        """Return what a point changes in the request, with the limits that are held."""
+        return {**self.held, **self.points.overrides(index)}
 
     def _points(self, base: BaseRequest, most: int) -> PointSet:
         """Return the points that the body requests.
@@ -188,16 +204,22 @@ class Sweep(Study):
         """Yield the header, a line for each point, and then the lines that `_closing` returns."""
         points, first, outputs = self.points, self.body.from_index, self.question.outputs
         await self._size_flow(pool, points.overrides(0))
+        try:
+            self.held = await self._limits_held(pool)
+        except Unprocessable as error:
+            yield [clock.error(error.code, error.message)]
+            return
         yield [
             self.header(
                 axes=[axis.header() for axis in points.axes],
                 outputs=[output_header(leaf) for leaf in self.outputs],
                 total=points.total,
                 **({"from_index": first} if first else {}),
+                **({"held": self.held} if self.held else {}),
             )
         ]
         summary, indices = Summary(outputs, self.body.best, first), range(first, points.total)
-        async for chunk, chunk_points in runner.in_order(pool, self.question, points.overrides, indices, clock):
+        async for chunk, chunk_points in runner.in_order(pool, self.question, self.overrides, indices, clock):
             lines = []
             for index, point in zip(chunk, chunk_points, strict=True):
                 summary.add(point)
@@ -216,11 +238,22 @@ class Sweep(Study):
             "counts": dict(sorted(summary.counts.items())),
             "ranges": summary.extremes,
             **statistics,
-            "best": best and {"index": best[0], "at": points.rows[best[0]], "out": best[1]},
+            "best": best
+            and {"index": best[0], "at": points.rows[best[0]], "out": best[1], "ends": points.ends(best[0])},
             "assumptions": list(summary.assumptions.values()),
+            **({"remarks": self.remarks()} if self.tests else {}),
             "elapsed_s": clock.elapsed_s,
         }
         yield self._closing(summary, end)
+
+    async def _limits_held(self, pool: Pool) -> Overrides:
+        if not self.tests or self.body.oil_tests != "held":
+            return {}
+        return await hold(pool, self.question, self.tests, self.points.overrides(0))
+
+    def remarks(self) -> list[str]:
+        """Say what the tests of the case's oil mean for a study over the oil."""
+        return remarks_on(self.tests, self.held)
 
     def _closing(self, _: Summary, end: Line) -> list[Line]:
         """Return the lines that follow the last point. A subclass may put further lines before the line `end`."""
