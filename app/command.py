@@ -7,7 +7,6 @@ import os
 import socket
 import sys
 import threading
-import time
 from collections.abc import Sequence
 from concurrent.futures import ProcessPoolExecutor
 from contextlib import suppress
@@ -121,7 +120,7 @@ def print_solution(endpoint: str, file: Path, as_csv: bool, kept: Path | None) -
 def print_study(endpoint: str, body: Any, as_csv: bool, kept: Path | None) -> int:
     """Print the lines of a study, solved by as many processes as the settings say. Return the exit status.
 
-    A terminal to which the lines do not go shows the progress.
+    A terminal to which the lines do not go shows the progress. An error that ends the study is printed there too.
     """
     from app.studies import study  # noqa: PLC0415
     from app.workers.worker import prepare  # noqa: PLC0415
@@ -130,28 +129,33 @@ def print_study(endpoint: str, body: Any, as_csv: bool, kept: Path | None) -> in
     own = (limits.worker_memory_mb * MEBIBYTE, ("app.studies.points",))
     with ProcessPoolExecutor(limits.workers, get_context("spawn"), prepare, own) as processes:
         run = study(endpoint, body, processes.map, kept)
-        encode, ended, last = run.plan.encoder("csv" if as_csv else "ndjson"), threading.Event(), ""
+        encode, ended, problem = run.plan.encoder("csv" if as_csv else "ndjson"), threading.Event(), ""
+        showing = threading.Thread(target=_show_points, args=(run, ended), daemon=True)
         if sys.stderr.isatty() and not sys.stdout.isatty():
-            threading.Thread(target=_show_points, args=(run, ended), daemon=True).start()
+            showing.start()
         try:
             for line in run:
-                last = line["type"]
+                problem = line["message"] if line["type"] == "error" else ""
                 if not _is_printed(encode(line)):
                     break
         finally:
             ended.set()
+            if showing.is_alive():
+                showing.join()
             processes.shutdown(wait=False, cancel_futures=True)
-    return 1 if last == "error" else 0
+    if problem:
+        print(f"tribodrive: {problem}", file=sys.stderr)  # noqa: T201
+    return 1 if problem else 0
 
 
 def _show_points(run: "Run", ended: threading.Event) -> None:
     """Show a bar with the progress of a study on the standard error until the study has ended."""
-    began, is_shown = time.monotonic(), True
+    is_shown = True
     while is_shown:
         is_shown = not ended.wait(BAR_S)
-        share = run.done / run.total
-        left = f", {(time.monotonic() - began) * (1 / share - 1):.0f} s left" if 0 < share < 1 else ""
-        bar = f"[{'#' * round(BAR * share):<{BAR}}] {run.done} of {run.total} points{left}"
+        done, total, left_s = run.progress
+        left = "" if left_s is None else f", {left_s:.0f} s left"
+        bar = f"[{'#' * round(BAR * done / total):<{BAR}}] {done} of {total} points{left}"
         print(f"\r{bar:<{BAR + 50}}", end="" if is_shown else "\n", file=sys.stderr, flush=True)  # noqa: T201
 
 

@@ -21,7 +21,6 @@ from app.examples import examples
 from app.studies import study
 from app.studies.kinds.sweep import Sweep
 from app.studies.points import solve_point
-from app.workers.cluster import Kernels
 from app.workers.worker import ONE_THREAD
 
 TURNS = 4
@@ -62,10 +61,9 @@ def main() -> None:
     with (
         spawned() as bare,
         spawned() as processes,
-        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster,
+        LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as cluster,
         Client(cluster) as client,
     ):
-        client.register_plugin(Kernels(UNIT.endpoint))
         ways: dict[str, Callable[[dict[str, Any]], None]] = {
             "points one by one, executor": partial(without_study, bare),
             "study, executor": partial(by_study, processes.map),
@@ -80,6 +78,7 @@ def main() -> None:
                 started = perf_counter()
                 ways[way](sample(count // TURNS, 1 + turn))
                 seconds[way] += perf_counter() - started
+                print(f"turn {turn + 1}, {way}: {seconds[way]:.1f} s", flush=True)
         load = os.getloadavg()[0]
     base = min(seconds["points one by one, executor"], seconds["study, executor"])
     for way, total in seconds.items():

@@ -45,7 +45,10 @@ def test_docstrings_have_the_form() -> None:
         assert [(code, text) for code, text in validate(name)["errors"] if code in checks] == [], name
 
 
-@pytest.mark.parametrize("name", [name for name in PUBLIC if ">>>" in (implementing(name).__doc__ or "")])
+EXAMPLES = [name for name in PUBLIC if ">>>" in (implementing(name).__doc__ or "")]
+
+
+@pytest.mark.parametrize("name", [*EXAMPLES, "app.studies.script.study"])
 def test_examples_run(name: str) -> None:
     names = dict(vars(import_module(implementing(name).__module__)))
     (example,) = doctest.DocTestFinder(recurse=False).find(implementing(name), name, globs=names)

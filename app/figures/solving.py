@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from app.figures.data import Axis, Figure, Hue, Level, Line, Mark, Panel, Row, Span
-from app.figures.studies import Grid, verdict_lines
+from app.figures.studies import Grid, verdict_levels
 from app.figures.wording import number
 
 MOST_OILS = 14  # largest number of oils in a figure
@@ -19,7 +19,7 @@ def sought(grid: Grid, wanted: float | None, answers: Sequence[Mark], gaps: Sequ
     is nothing between the points.
     """
     x, unit = grid.x, grid.output.unit
-    levels = verdict_lines(grid)
+    levels = verdict_levels(grid)
     if wanted is not None and wanted not in {level.value for level in levels}:
         levels.append(Level(wanted, f"wanted: {number(wanted, unit)}"))
     if x.own is not None and x.values[0] <= x.own <= x.values[-1]:

@@ -66,7 +66,8 @@ def chance_text(chance: dict[str, Any]) -> str:
 def sentence(limit: dict[str, Any], output: str) -> str:
     """Return the verdict of a limit: in a few words, the share of the machines beyond it, the error of sampling.
 
-    The risk is in words only for the scuffing temperature, whose standard has such words.
+    The risk is in words only for the scuffing temperature, whose standard has such words. Any other limit is neither
+    kept nor violated by a share, so that the share itself comes first.
     """
     risk, is_rare = limit["risk"], is_tiny(limit) or max(limit["bounds"]) == 0.0
     if risk is not None:
@@ -74,7 +75,7 @@ def sentence(limit: dict[str, Any], output: str) -> str:
     elif is_rare:
         verdict = f"The limit holds: {chance_text(limit)} of the machines have the {output} {limit['side']} it"
     else:
-        verdict = f"The limit is exceeded: {chance_text(limit)} of the machines have the {output} {limit['side']} it"
+        verdict = f"{chance_text(limit)} of the machines exceed the limit: {output} {limit['side']} it"
     interval, reach = None if is_tiny(limit) else limit["interval"], ""
     if interval:
         reach = f" (90 % interval {percent(interval[0])} to {percent(interval[1])}, the error of sampling alone)"

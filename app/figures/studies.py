@@ -27,9 +27,9 @@ from app.figures.data import (
     values,
 )
 from app.figures.wording import NO_BREAK, difference_unit, listed, number, to_digits
+from app.schema.precision import NOISE, is_constant
 
 MOST_CURVES = 6  # if a sweep of two fields needs more curves, a map is drawn instead
-SAME = 1e-7  # relative change of an output that the tolerance of an iteration can cause
 NEAR = (
     0.25  # a line of the verdict is drawn if it lies at most this share of its value outside the values of the figure
 )
@@ -93,15 +93,14 @@ class Grid:
     @property
     def is_constant(self) -> bool:
         """Whether the output is the same at all of several points."""
-        finite = self.values[np.isfinite(self.values)]
-        return finite.size > 1 and bool(np.ptp(finite) <= SAME * np.abs(finite).max())
+        return is_constant(self.values[np.isfinite(self.values)])
 
     @property
     def without_effect(self) -> list[Coordinate]:
         """The fields that do not change the output, if another one does."""
         if self.y is None or self.is_constant or not np.isfinite(self.values).all():
             return []
-        least = SAME * float(np.abs(self.values).max())
+        least = NOISE * float(np.abs(self.values).max())
         return [field for axis, field in enumerate(self.fields) if np.ptp(self.values, axis=axis).max() <= least]
 
     @property
@@ -127,7 +126,7 @@ def curve(grid: Grid) -> Figure:
     """Draw the output over the varied field."""
     x, own = grid.x, grid.x.own
     line = Line(grid.output.title, x.values, grid.values, named=False)
-    levels, spans, start = verdict_lines(grid), list[Span](), 0
+    levels, spans, start = verdict_levels(grid), list[Span](), 0
     if own is not None and x.values[0] <= own <= x.values[-1]:
         levels.append(Level(own, f"this case: {number(own, x.axis.unit)}", vertical=True))
     for reason, group in groupby(grid.invalid):
@@ -155,7 +154,7 @@ def family(grid: Grid, y: Coordinate) -> Figure:
         for index in range(y.values.size)
     ]
     marks = parts.extreme(lines, grid.output.unit, least=not grid.greatest)
-    panel = Panel(x=grid.x.axis, y=_ordinate(grid), lines=lines, levels=verdict_lines(grid), marks=marks)
+    panel = Panel(x=grid.x.axis, y=_ordinate(grid), lines=lines, levels=verdict_levels(grid), marks=marks)
     title = f"{grid.output.title} over {grid.x.axis.title}, by {y.axis.title}"
     return _figure(grid, title, panel, _finding(grid))
 
@@ -166,7 +165,7 @@ def chart(grid: Grid, y: Coordinate) -> Figure:
     finite = grid.values[np.isfinite(grid.values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     ends = (low, high) if high > low else (low - 0.5, low + 0.5)
-    critical = [replace(level, limit=False) for level in verdict_lines(grid)]
+    critical = [replace(level, limit=False) for level in verdict_levels(grid)]
     colours = Map(output.title, output.unit, x.values, y.values, grid.values.T, critical=critical, range=ends)
     marks = [] if grid.best is None else [parts.extreme_of_map(colours, least=not grid.greatest)]
     if x.own is not None and y.own is not None:
@@ -191,7 +190,7 @@ def worst(grid: Grid, y: Coordinate) -> Figure:
         side = "above" if grid.greatest else "below"
         place = y.named(int(np.flatnonzero(y.values == mark.x)[0]))
         finding = f"{y.axis.title} {place} keeps {grid.output.title} {side} {mark.text}"
-    panel = Panel(x=y.axis, y=_ordinate(grid), lines=lines, levels=verdict_lines(grid), marks=marks)
+    panel = Panel(x=y.axis, y=_ordinate(grid), lines=lines, levels=verdict_levels(grid), marks=marks)
     span = f"{number(float(x.values[0]))} to {number(float(x.values[-1]), x.axis.unit)}"
     return _figure(grid, f"Which {y.axis.title} forgives {x.axis.title} from {span}?", panel, finding)
 
@@ -222,7 +221,7 @@ def _ordinate(grid: Grid) -> Axis:
     return replace(grid.output, magnitude=not flat)
 
 
-def verdict_lines(grid: Grid) -> list[Level]:
+def verdict_levels(grid: Grid) -> list[Level]:
     """Return the lines of the verdict: the limit, and where the output is well on its safe side, unless that is far."""
     if grid.limit is None:
         return []

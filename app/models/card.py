@@ -82,6 +82,7 @@ class Words:
     tiles          further numbers that stand beside the headline numbers, by path
     touches        the headline numbers and tiles that a warning concerns, by the warning's code; all of them for a
                    code that is missing here
+    names          codes of warnings that the verdict itself names
     belongs        what headline numbers belong to, by path, such as the helix that decides
     remarks        how well results are known, by path
     hands_on       results that become inputs of other calculations: by endpoint, the path there and that of the answer
@@ -99,6 +100,7 @@ class Words:
     verdicts: Callable[[Any], dict[str, Verdict]] = lambda _: {}
     tiles: tuple[str, ...] = ()
     touches: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    names: frozenset[str] = frozenset()
     conclusion: Callable[[Any], str] = lambda _: ""
     belongs: Callable[[Any], dict[str, str]] = lambda _: {}
     remarks: Callable[[Any], dict[str, str]] = lambda _: {}

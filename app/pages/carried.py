@@ -6,7 +6,8 @@ link can fill them in again. If the link would be too long, `pair` is left out. 
 from: a REXS file, or the typical shafts.
 """
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator
+from dataclasses import replace
 from typing import Any, NamedTuple
 from urllib.parse import urlencode
 
@@ -25,6 +26,7 @@ requests.
 """
 
 
+INPUTS = "inputs."  # of paths in an answer that repeat what was given
 DIGITS = 6  # of a result that becomes an input
 
 
@@ -59,13 +61,21 @@ def uses(asked: Asked, answer: Any = None) -> list[Use]:
 def use_in(asked: Asked, other: Calculation, answer: Any = None) -> Use:
     """Return the link to the calculation `other`, with the fields of the page and with what its `answer` hands on."""
     there = carried_to(asked, other, answer)
+    sources = asked.calculation.words.hands_on.get(other.path, {})
     titles = [
-        leaf.declared.title for path in _handed_on(asked.calculation, other, answer) if (leaf := _leaf(other, path))
+        leaf.declared.title
+        for path in _handed_on(asked.calculation, other, answer)
+        if not sources[path].startswith(INPUTS) and (leaf := _leaf(other, path))
     ]
-    address = link(there.path, there.pairs, theme=there.theme, **there.carried)
+    address = address_of(there)
     if len(address) > LONGEST_QUERY:
         address = link(there.path, there.pairs, theme=there.theme, **there.carried | {"pair": None})
     return Use(other.title, address, missing(there), titles)
+
+
+def address_of(asked: Asked) -> str:
+    """Return the address of a case with all that goes along with it, however long."""
+    return link(asked.path, asked.pairs, theme=asked.theme, **asked.carried)
 
 
 def carried_to(asked: Asked, other: Calculation, answer: Any = None) -> Asked:
@@ -85,9 +95,11 @@ def carried_to(asked: Asked, other: Calculation, answer: Any = None) -> Asked:
     )
 
 
-def missing(asked: Asked) -> list[str]:
-    """Return the titles of the fields that the case lacks."""
-    return [*_missing(tree(asked.calculation.request), {name for name, _ in asked.pairs})]
+def missing(asked: Asked, apart: Collection[str] = ()) -> list[str]:
+    """Return the titles of the fields that the case lacks, apart from some fields and sections of the request."""
+    whole = tree(asked.calculation.request)
+    members = tuple(member for member in whole.members if member.path not in apart)
+    return [*_missing(replace(whole, members=members), {name for name, _ in asked.pairs})]
 
 
 def _leaf(calculation: Calculation, path: str) -> Leaf | None:
@@ -95,25 +107,29 @@ def _leaf(calculation: Calculation, path: str) -> Leaf | None:
 
 
 def _handed_on(calculation: Calculation, other: Calculation, answer: Any) -> dict[str, str]:
-    """Return the fields of the other calculation that are results in the answer, with the texts of these results."""
+    """Return the fields of the other calculation that are in the answer, with their texts.
+
+    If a result is missing, nothing is handed on: the values of a case without it belong to no result.
+    """
     paths = calculation.words.hands_on.get(other.path, {}) if answer is not None else {}
     values = {there: value_at(answer, path) for there, path in paths.items()}
-    return {there: f"{value:.{DIGITS}g}" for there, value in values.items() if value is not None}
+    return {} if None in values.values() else {there: f"{value:.{DIGITS}g}" for there, value in values.items()}
 
 
 def offers(asked: Asked) -> list[Offer]:
     """Return links that solve another calculation for the same case and come back with its result as an input.
 
-    A field that is already given gets no link.
+    A field that is already given gets no link; nor does a case that is too long to come back with all its values.
     """
     given = {name for name, _ in asked.pairs}
     found = []
     for other in CALCULATIONS:
         paths = [path for path in other.words.hands_on.get(asked.calculation.path, ()) if path not in given]
-        use = use_in(asked, other)
-        if paths and asked.pairs and not use.missing:
+        there = carried_to(asked, other)
+        address = address_of(there)
+        if paths and asked.pairs and len(address) <= LONGEST_QUERY and not missing(there):
             titles = (leaf.declared.title for path in paths if (leaf := _leaf(asked.calculation, path)))
-            place, _, query = use.address.partition("?")
+            place, _, query = address.partition("?")
             found.append(Offer(" and ".join(titles), other.title, f"{place}/into{asked.path}?{query}"))
     return found
 

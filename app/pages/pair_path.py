@@ -13,10 +13,10 @@ from app.calculations import BY_PATH, card_of
 from app.errors import InvalidBody, Unreadable
 from app.models.drive_train.request import TrainGears, TrainOperation
 from app.models.drive_train.typical import RULES, Rule, Value, typical_unit
-from app.pages.carried import carried_to, missing
+from app.pages.carried import address_of, carried_to, missing
 from app.pages.cases import Asked
 from app.pages.form import IF_USED, Alternatives, Block, FieldView, FormSection, FormState, form
-from app.pages.query import LONGEST_QUERY, Pairs, body_of, link, pairs_of_query
+from app.pages.query import LONGEST_QUERY, Pairs, body_of, pairs_of_query
 from app.pages.study_kinds import DESIGN
 from app.pages.templating import page_path
 from app.pages.typed import text_of
@@ -43,13 +43,13 @@ LAST = ("lubricant", "temperatures", "cooling")
 
 
 class Step(NamedTuple):
-    """A step of the path: its question, the page that answers it, and the link; `lacks` names what is missing there."""
+    """A step of the path: its question, the page that answers it, and the link; without one, `trouble` says why."""
 
     question: str
     title: str
     address: str = ""
     current: bool = False
-    lacks: str = ""
+    trouble: str = ""
 
 
 class Assumed(NamedTuple):
@@ -73,15 +73,24 @@ def path_of(asked: Asked, study: str = "") -> list[Step]:
     unit = asked if here.path == TRAIN else carried_to(asked, BY_PATH[TRAIN])
     filled = with_typical(unit)
     places = [asked if here.path == path else carried_to(asked, BY_PATH[path]) for path in (SCUFFING, PUMPING)]
-    addresses = [*map(_address, (*places, filled)), filled.study(DESIGN.name), filled.reported(extent=WITH_PAIR)]
-    lacking = [", ".join(missing(each)) for each in (*places, filled, filled, filled)]
+    addresses = [*map(address_of, (*places, filled)), filled.study(DESIGN.name), filled.reported(extent=WITH_PAIR)]
+    basis = [] if _has_shafts(unit) else missing(unit, UNIT)  # what is missing for typical shafts
+    lacking = [missing(each) for each in places] + 3 * [basis or missing(filled)]
+    troubles = [_trouble(lacks, address) for lacks, address in zip(lacking, addresses, strict=True)]
     now = DESIGN.name if study == DESIGN.name else here.path
     current = [now == place for place in (SCUFFING, PUMPING, TRAIN, DESIGN.name, "")]
-    questions = _questions(typical="typical" in filled.views)
+    questions = _questions(typical=bool(basis) or "typical" in filled.views)
     return [
-        Step(question, title, "" if lacks or len(address) > LONGEST_QUERY else address, is_current, lacks)
-        for (question, title), address, is_current, lacks in zip(questions, addresses, current, lacking, strict=True)
+        Step(question, title, "" if trouble else address, is_current, trouble)
+        for (question, title), address, is_current, trouble in zip(questions, addresses, current, troubles, strict=True)
     ]
+
+
+def _trouble(lacks: list[str], address: str) -> str:
+    """Return why a step cannot be opened, or an empty text."""
+    if lacks:
+        return f"missing: {', '.join(lacks)}"
+    return "the case is too long for a link" if len(address) > LONGEST_QUERY else ""
 
 
 def _questions(*, typical: bool) -> list[tuple[str, str]]:
@@ -95,13 +104,13 @@ def _questions(*, typical: bool) -> list[tuple[str, str]]:
     ]
 
 
-def _address(asked: Asked) -> str:
-    return link(asked.path, asked.pairs, theme=asked.theme, **asked.carried)
+def _has_shafts(unit: Asked) -> bool:
+    return any(name.partition(".")[0] in UNIT for name, _ in unit.pairs)
 
 
 def with_typical(unit: Asked) -> Asked:
     """Return the case of a drive train with typical shafts; unchanged if it has shafts, or lacks gears or load."""
-    if any(name.partition(".")[0] in UNIT for name, _ in unit.pairs):
+    if _has_shafts(unit):
         return unit
     basis = _basis(unit.pairs)
     filled = [(name, text_of(each.value)) for name, each in template(basis).items()]
@@ -137,7 +146,8 @@ def assumed_of(asked: Asked) -> Assumed | None:
     if not kept:
         return None
     own = [(name, text) for name, text in asked.pairs if name not in made]
-    renewed = "" if sorted(basis) == sorted(_basis(asked.pairs)) else _address(with_typical(replace(asked, pairs=own)))
+    is_same = sorted(basis) == sorted(_basis(asked.pairs))
+    renewed = "" if is_same else address_of(with_typical(replace(asked, pairs=own)))
     rules = [rule for name, rule in RULES.items() if name in {*kept.values(), "clearance"}]
     return Assumed({name: RULES[rule] for name, rule in kept.items()}, rules, renewed)
 

@@ -1,6 +1,7 @@
 """The report of a case with the other calculations of its gear pair: one document for all steps of the path."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 from app.calculations import BY_PATH, card_of
@@ -8,31 +9,49 @@ from app.pages.carried import carried_to, missing
 from app.pages.cases import REFUSED, Asked, faults_of, solved
 from app.pages.charts import figures_of
 from app.pages.pair_path import PUMPING, SCUFFING, TRAIN, WITH_PAIR
-from app.pages.results import cards, conclusion, resolved, verdict
-from app.pages.studies.design import grinding_sheet
+from app.pages.results import cards, conclusion, resolved, verdict, warned
+from app.pages.studies.design import SLOPE, grinding_sheet
 from app.pages.studies.page import Table
 from app.pages.views import Shown, report
+from app.schema.fields import value_at
 
 QUESTIONS = {SCUFFING: "Safe?", PUMPING: "Choked?"}
 MOST_FIGURES = 4  # of each other calculation
+ALONE = " (pair alone, aligned)"
+WITHOUT_SLOPE = (
+    "The pair alone, on aligned shafts and without helix slope: the slope takes back what shafts and heat of the unit "
+    "bend, and would look wrong here."
+)
 
 
 def others_of(asked: Asked) -> list[Asked]:
     """Return the cases of the other calculations that the report of a case contains; none unless it asks for them."""
     if asked.views.get("extent") != WITH_PAIR or card_of(asked.calculation).subject != "pair":
         return []
-    return [carried_to(asked, BY_PATH[path]) for path in QUESTIONS if path != asked.calculation.path]
+    cases = [carried_to(asked, BY_PATH[path]) for path in QUESTIONS if path != asked.calculation.path]
+    if asked.calculation.path != TRAIN:
+        return cases
+    return [replace(each, pairs=[pair for pair in each.pairs if pair[0] != SLOPE]) for each in cases]
 
 
 def report_of(asked: Asked, host: str, others: Sequence[Asked]) -> Shown:
     """Return the report of a case with other calculations of the pair. The answers are kept with the cases."""
-    return report(asked, host, steps=[_step(other) for other in others], sheet=_sheet(asked) if others else None)
+    return report(asked, host, steps=[_step(other, asked) for other in others], sheet=_sheet(asked) if others else None)
 
 
-def _step(there: Asked) -> dict[str, Any]:
-    """Return what the report says of another calculation of the pair, or why there is nothing to say."""
+def _step(there: Asked, asked: Asked) -> dict[str, Any]:
+    """Return what the report of `asked` says of another calculation of the pair, or why there is nothing to say."""
     calculation, path = there.calculation, there.calculation.path
-    step = {"question": QUESTIONS[path], "title": calculation.title, "address": there.page, "trouble": "", "cards": ()}
+    is_alone = path == SCUFFING and asked.calculation.path == TRAIN
+    step = {
+        "note": WITHOUT_SLOPE if is_alone and value_at(asked.body, SLOPE) else "",
+        "question": QUESTIONS[path],
+        "judged": ALONE if is_alone else "",
+        "title": calculation.title,
+        "address": there.page,
+        "trouble": "",
+        "cards": (),
+    }
     if lacks := missing(there):
         return step | {"trouble": f"missing: {', '.join(lacks)}"}
     try:
@@ -43,10 +62,10 @@ def _step(there: Asked) -> dict[str, Any]:
     figures, _ = figures_of(case, None, compute=True)
     tiles = cards(response, resolved(response))
     return step | {
-        "verdict": verdict(response).text or response.warnings[0].message,
+        "verdict": verdict(response).text,
         "conclusion": conclusion(response),
         "cards": tiles,
-        "warnings": response.warnings,
+        "warned": warned(calculation.request, response),
         "figures": figures[:MOST_FIGURES],
         "case": response.case,
     }

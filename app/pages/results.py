@@ -269,8 +269,10 @@ def cards(response: Documented, inputs: dict[str, Any], before: Documented | Non
 
     If several numbers have the same rank, only the number with the worst verdict from `verdicts` is returned. If this
     verdict occurs several times, or if `verdicts` judges none of these numbers, the largest number is returned. A tile
-    that a warning touches says so, and is not good.
+    that a warning touches says so, and is not good. Without a solution there are no tiles.
     """
+    if response.status == "no_solution":
+        return []
     said = words_of(response)
     values, old = ({**values_by_path(each), **_of(each, said.tiles)} for each in (response, before))
     judged, belongs, remarks = verdicts(response), said.belongs(response), said.remarks(response)
@@ -284,7 +286,8 @@ def cards(response: Documented, inputs: dict[str, Any], before: Documented | Non
         level, verdict = judged.get(leaf.path) or _verdict(response, leaf, inputs | values)
         value = values.get(leaf.path)
         row = row_of(leaf, leaf.path, value, old.get(leaf.path), digits=DIGITS)
-        remark = ": ".join(part for part in (belongs.get(leaf.path, ""), verdict) if part)
+        of = belongs.get(leaf.path, "")
+        remark = f"{verdict} ({of})" if verdict and of else verdict or of
         see = "see the warnings" if value is not None and _is_touched(response, leaf.path) else ""
         remark = "; ".join(part for part in (remark, remarks.get(leaf.path, ""), see) if part)
         level = "near" if see and level == "good" else level
@@ -332,14 +335,15 @@ def verdicts(response: Documented) -> dict[str, Verdict]:
 def verdict(response: Response) -> Verdict:
     """Return the first sentence about an answer, with its level.
 
-    A warning that makes the answer invalid stands first, unless the model's verdict is bad and has said so. The names
-    of warnings that make it doubtful stand last.
+    A warning that makes the answer invalid stands first, unless the model's verdict names it. The names of warnings
+    that make it doubtful stand last.
     """
     if response.status == "no_solution":
-        return Verdict("bad", "")
-    level, text = words_of(response).verdict(response)
-    invalid = [warning for warning in response.warnings if warning.rank == "invalid"]
-    if invalid and level != "bad":
+        return Verdict("bad", f"No solution: {response.warnings[0].message}.")
+    said = words_of(response)
+    level, text = said.verdict(response)
+    invalid = [each for each in response.warnings if each.rank == "invalid" and each.code not in said.names]
+    if invalid:
         first = invalid[0].message.partition(". ")[0].removesuffix(".")
         level, text = "bad", f"Not valid: {first}. {text}"
     doubtful = [*dict.fromkeys(words(each.code) for each in response.warnings if each.rank == "doubtful")]
@@ -398,7 +402,8 @@ def _verdict(response: Documented, leaf: Leaf, values: dict[str, Any]) -> tuple[
     """Return the level and the words of the verdict on a headline number."""
     view, value = leaf.view, values.get(leaf.path)
     if value is None:
-        reason = leaf.declared.description.partition("null ")[2]  # the reason as the schema states it
+        # The reason as the schema states it; where the whole section is missing, it is another one.
+        reason = leaf.declared.description.partition("null ")[2] if leaf.path in values else ""
         why = f"no value {reason}" if reason else "no value; the warnings say why"
         return "plain", "" if view.needs else why
     path = view.verdict or ""

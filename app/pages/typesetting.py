@@ -12,7 +12,8 @@ _SECOND_HAND = "as read in a public implementation"
 NO_VALUE = "–"
 _UNITS = sorted({unit.symbol for unit in UNITS.values()} - {"°"}, key=len, reverse=True)
 _WITH_UNIT = re.compile(rf"(?<=\d) ({'|'.join(map(re.escape, _UNITS))}|%)(?![^\W\d_])")
-_MINUS = re.compile(r"(?<![\w)-])-(?=\d)")
+_NEXT_PART = r"(?<!\w-\d and )(?<!\w-\d\d and )"  # of a standard, such as -21 in "ISO/TS 6336-20 and -21"
+_MINUS = re.compile(rf"(?<![\w)-]){_NEXT_PART}-(?=\d)")
 _GROUPED = re.compile(r"(?<=\d) (?=\d{3}(?!\d))")
 STEP_ABOVE_S, MINUTES_ABOVE_S = 10.0, 90.0
 _WORDS = {

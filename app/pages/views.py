@@ -89,23 +89,22 @@ def summary(asked: Asked) -> Shown:
         reasons = [fault.message for fault in faults_of(error, asked.calculation)]
         return Shown(json.dumps({"trouble": "; ".join(dict.fromkeys(reasons))}).encode())
     response = case.response
-    if response.status == "no_solution":
-        said = {"trouble": response.warnings[0].message}
-    else:
-        tiles = cards(response, resolved(response))
-        found = [{"label": each.label, "text": each.value, "unit": each.unit, "level": each.level} for each in tiles]
-        said = {"trouble": "", "verdict": verdict(response).text, "cards": found}
+    tiles = cards(response, resolved(response))
+    found = [{"label": each.label, "text": each.value, "unit": each.unit, "level": each.level} for each in tiles]
+    said = {"trouble": "", "verdict": verdict(response).text, "cards": found}
     return Shown(json.dumps(said).encode(), keep=_keep(asked, case))
 
 
 def handed_on(asked: Asked, other: str) -> Shown:
     """Return the address of the page of the calculation `other`, to which the answer of the case hands on its results.
 
-    If the case is refused, return its page, which says why.
+    If the case is refused or has no solution, return its page, which says why.
     """
     try:
         case = solved(asked.calculation, asked.pairs, asked.kept)
     except REFUSED:
+        return page(asked)
+    if case.response.status == "no_solution":
         return page(asked)
     return Shown(
         use_in(asked, BY_PATH[other], case.response).address.encode(), HTTPStatus.SEE_OTHER, _keep(asked, case)

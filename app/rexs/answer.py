@@ -11,7 +11,8 @@ from app.calculations import BY_PATH
 from app.errors import Unprocessable
 from app.evaluate import evaluate, refuse_endless
 from app.pages.cases import REFUSED, Asked, faults_of, solved
-from app.pages.overview import SCUFFING, TRAIN, endpoint_of, stage_cases, unit_page, with_common
+from app.pages.overview import endpoint_of, stage_cases, unit_page, with_common
+from app.pages.pair_path import SCUFFING, TRAIN
 from app.pages.query import Pairs
 from app.rexs import table
 from app.rexs.document import Document, File, packed, read, with_attributes

@@ -2,6 +2,7 @@
 
 import operator
 from dataclasses import replace
+from math import inf, isfinite
 from typing import Any
 
 from app.errors import Unprocessable
@@ -12,6 +13,7 @@ from app.studies.requests import Scalar
 from solvers.quantity import allowed
 
 NUMBERS = frozenset({"number", "integer"})
+INSIDE = 1e-3  # distance of a default end from a bound that is not itself permissible, as a share of the range
 
 
 def scalar_at(model: type[Documented], path: str, place: str, unknown: str) -> Leaf:
@@ -70,6 +72,14 @@ def fault(leaf: Leaf, value: Scalar) -> tuple[str, str] | None:
         wrong = not all(getattr(operator, name)(value, bound) for name, bound in leaf.declared.bounds.items())
         message = f"{value:.12g} is out of range; permissible: {allowed(leaf.declared)}"
     return (code, message) if wrong else None
+
+
+def whole_range(leaf: Leaf) -> tuple[float, float]:
+    """Return the ends of the permissible range of a field; infinite where it has none."""
+    bounds = leaf.declared.bounds
+    low, high = bounds.get("ge", bounds.get("gt", -inf)), bounds.get("le", bounds.get("lt", inf))
+    margin = INSIDE * (high - low) if isfinite(high - low) else INSIDE
+    return low + margin * ("gt" in bounds), high - margin * ("lt" in bounds)
 
 
 def check_value(leaf: Leaf, value: Scalar, place: str) -> None:

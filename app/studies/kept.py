@@ -1,13 +1,15 @@
 """Points of former runs, kept in a file of JSON lines, so that a study goes on after a crash.
 
 The first line names the solvers. Every other line is a point with its `case`: the hash of its request, of the outputs
-and of the solvers. Studies that share points can share a file.
+and of the solvers. Studies that share points can share a file, also at once: it is locked while it is read or written.
 """
 
 import json
+from collections.abc import Iterator
+from contextlib import contextmanager
 from itertools import takewhile
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 from app.calculations import BY_PATH
 from app.errors import OtherSources
@@ -16,6 +18,11 @@ from app.schema.answers import MODEL_VERSION
 from app.sources import SOURCES
 from app.studies.points import Chunk, Point, Question, with_overrides
 from app.studies.requests import Overrides
+
+try:
+    import fcntl
+except ImportError:  # Windows, where files are not locked
+    fcntl = None  # type: ignore[assignment]
 
 HEAD = {"type": "kept", "model_version": MODEL_VERSION, "sources": SOURCES}
 
@@ -29,31 +36,32 @@ class Kept:
     def __init__(self, file: Path) -> None:
         self._file = file
         self._points: dict[str, Point] = {}
-        self._assumptions: tuple[dict[str, Any], ...] = ()  # those of the last line, which the next need not repeat
-        content = file.read_bytes() if file.exists() else b""
-        whole, newline, torn = content.rpartition(b"\n")
-        head, *lines = whole.splitlines() or [torn]
-        if newline:
-            self._check(head)
-        elif not _line(HEAD).startswith(torn):
-            raise ValueError(f"{file} holds no kept points; name another file")
-        for number, line in enumerate(lines, start=2):
-            try:
-                self._read(json.loads(line))
-            except (ValueError, LookupError, TypeError) as error:
-                raise ValueError(f"line {number} of {file} is no kept point; name another file") from error
-        if torn:
-            with file.open("r+b") as opened:
-                opened.truncate(len(whole) + len(newline))
-        if not newline:
-            self._append([HEAD])
+        self._assumptions: tuple[dict[str, Any], ...] = ()  # of the last line read; the next need not repeat them
+        with _locked(file) as opened:
+            content = opened.read()
+            whole, newline, torn = content.rpartition(b"\n")
+            head, *lines = whole.splitlines() or [torn]
+            if newline:
+                self._check(head)
+            elif not _line(HEAD).startswith(torn):
+                raise ValueError(f"{file} holds no kept points; name another file")
+            for number, line in enumerate(lines, start=2):
+                try:
+                    self._read(json.loads(line))
+                except (ValueError, LookupError, TypeError, AttributeError) as error:
+                    raise ValueError(f"line {number} of {file} is no kept point; name another file") from error
+            opened.truncate(len(whole) + len(newline))
+            if not newline:
+                opened.write(_line(HEAD))
 
     def _check(self, head: bytes) -> None:
         """Raise ValueError or OtherSources unless the first line is that of these solvers."""
         try:
-            sources = json.loads(head)["sources"]
+            kind, sources = (json.loads(head)[name] for name in ("type", "sources"))
         except (ValueError, LookupError, TypeError) as error:
             raise ValueError(f"{self._file} holds no kept points; name another file") from error
+        if kind != HEAD["type"]:
+            raise ValueError(f"{self._file} holds no kept points; name another file")
         if sources != SOURCES:
             raise OtherSources(
                 f"other solvers (hash {sources}) calculated the points in {self._file} than those of this process "
@@ -75,17 +83,25 @@ class Kept:
 
     def add(self, cases: list[str], chunk: Chunk) -> None:
         """Keep the points of a chunk, but not those that failed, because another run may solve them."""
-        lines = []
+        lines: list[dict[str, Any]] = []
+        before = None  # the first line states its assumptions, because the line before it may be of another process
         for case, point in zip(cases, chunk.points, strict=False):
             if point.status != "failed":
-                repeats = point.assumptions == self._assumptions
-                lines.append({"case": case, **point._asdict(), "assumptions": None if repeats else point.assumptions})
-                self._points[case], self._assumptions = point, point.assumptions
-        self._append(lines)
-
-    def _append(self, lines: list[dict[str, Any]]) -> None:
-        with self._file.open("ab") as opened:
+                assumptions = None if point.assumptions == before else point.assumptions
+                lines.append({"case": case, **point._asdict(), "assumptions": assumptions})
+                self._points[case], before = point, point.assumptions
+        with _locked(self._file) as opened:
             opened.write(b"".join(map(_line, lines)))
+
+
+@contextmanager
+def _locked(file: Path) -> Iterator[BinaryIO]:
+    """Open a file to read it from the start and to write at its end, while no other process does."""
+    with file.open("a+b") as opened:
+        if fcntl:
+            fcntl.flock(opened, fcntl.LOCK_EX)
+        opened.seek(0)
+        yield opened
 
 
 def case_of_point(question: Question, overrides: Overrides) -> str:

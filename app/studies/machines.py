@@ -17,7 +17,7 @@ from app.models.sections.gears import SLOPES_BY_CLASS
 from app.schema.fields import Leaf, value_at
 from app.schema.model import Request
 from app.schema.quantities import Input
-from app.studies.point_sets import CUT, CheckedAxis, anchors, drawn, grid, scattering, unit_cube, usual_corners
+from app.studies.point_sets import CUT, CheckedAxis, anchors, checked_axes, drawn, scattering, unit_cube, usual_corners
 from app.studies.points import BaseRequest
 from app.studies.requests import Inputs, Overrides, Part, Ranges, Scalar, Scatter, Seed
 from app.studies.tolerances import class_tolerances
@@ -88,12 +88,15 @@ class Machines:
     """The draws of a study: `total` machines, in `replicates` independent samples of `count` pairs.
 
     Machines 2 k and 2 k + 1 are a pair, and are the same if their flanks are exact.
+    `case` is a load case, without which the request may lack inputs.
     `classes` are the quality classes that are compared, `reference` is that at which corrections are judged: the class
     of the gears, or the middle one if that is not compared.
     """
 
-    def __init__(self, given: MachineDraws, base: BaseRequest, set_elsewhere: set[str], place: str) -> None:
-        request = base.checked({})
+    def __init__(
+        self, given: MachineDraws, base: BaseRequest, case: Overrides, set_elsewhere: set[str], place: str
+    ) -> None:
+        request = base.checked(case)
         self.given, self.total = given, PAIR * given.count * given.replicates
         self._request = request
         self.classes = sorted(set(given.classes))
@@ -197,8 +200,8 @@ def _axes(
     """Return the uncertain inputs by their names; the usual ones without fields that vary otherwise."""
     if given.uncertain is None:
         usual = {name: axis for name, axis in usual_corners(request).items() if taken.isdisjoint(axis.paths)}
-        return dict(zip(usual, grid(list(usual.values()), base, MOST_CORNERS, place).axes, strict=True))
-    axes = grid(given.uncertain, base, MOST_CORNERS, place).axes
+        return dict(zip(usual, checked_axes(list(usual.values()), base, MOST_CORNERS, place), strict=True))
+    axes = checked_axes(given.uncertain, base, MOST_CORNERS, place)  # they are drawn, so that corners do not count
     _refuse_taken([leaf.path for axis in axes for leaf in axis.leaves], taken, place)
     return {" and ".join(dict.fromkeys(leaf.title for leaf in axis.leaves)): axis for axis in axes}
 

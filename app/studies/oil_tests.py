@@ -103,11 +103,13 @@ def candidates(model: type[Documented], body: Any, case: Any, outputs: Sequence[
     """
     tests = [test for test in TESTS if _is_open(test, model, case)]
     needed = [test for test in tests if test.judges(outputs)]
-    described = {f"{LUBRICANT}{name}": None for name in value_at(body, "lubricant") or () if name in Oil.model_fields}
+    given = value_at(body, "lubricant") or ()
+    described: Overrides = {f"{LUBRICANT}{name}": None for name in given if name in Oil.model_fields}
     found: dict[NamedOil, Overrides] = {}
     for oil in sorted(named_oils().values(), key=lambda each: each.kinematic_viscosity_40_mm2_per_s):
         if all(getattr(oil, test.printed) for test in needed):
-            found[oil] = {**described, NAME: oil.name, f"{LUBRICANT}kind": oil.kind}
+            found[oil] = dict(described)
+            found[oil][NAME], found[oil][f"{LUBRICANT}kind"] = oil.name, oil.kind
             for test in tests:
                 stage = getattr(oil, test.printed)
                 found[oil] |= {test.stage: stage} if stage else {test.absent: None}

@@ -130,10 +130,17 @@ def grid(axes: list[Axis], base: BaseRequest, most: int, place: str) -> PointSet
     """
     total = prod(_length(axis, f"{place}.{number}") for number, axis in enumerate(axes))
     check_count(total, most, place)
+    checked = checked_axes(axes, base, most, place)
+    rows = [list(row) for row in product(*(axis.values or () for axis in checked))]
+    return PointSet(checked, tuple(leaf for axis in checked for leaf in axis.leaves), rows)
+
+
+def checked_axes(axes: Sequence[Axis], base: BaseRequest, most: int, place: str) -> list[CheckedAxis]:
+    """Return the axes; raise Unprocessable as `grid` does, but `most` is the number of values of each axis alone."""
+    for number, axis in enumerate(axes):
+        check_count(_length(axis, f"{place}.{number}"), most, f"{place}.{number}")
     check_distinct([path for axis in axes for path in axis.paths], place)
-    checked_axes = [_check_axis(axis, base, f"{place}.{number}") for number, axis in enumerate(axes)]
-    rows = [list(row) for row in product(*(axis.values or () for axis in checked_axes))]
-    return PointSet(checked_axes, tuple(leaf for axis in checked_axes for leaf in axis.leaves), rows)
+    return [_check_axis(axis, base, f"{place}.{number}") for number, axis in enumerate(axes)]
 
 
 def _length(axis: Axis, place: str) -> int:
@@ -193,7 +200,7 @@ def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: st
         message = not_a_number(leaf)
         if message is not None:
             raise Unprocessable(
-                "not_continuous", f"{message}, so it cannot be drawn at random; list its values instead", f"{here}.path"
+                "not_continuous", f"{message}, so it cannot be drawn at random; vary it in a sweep", f"{here}.path"
             )
         if leaf.kind == "integer" and not isinstance(scatter, Listed):
             raise Unprocessable(

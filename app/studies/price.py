@@ -5,7 +5,7 @@ temperature of the machine, the safety against micropitting with 1; both limits 
 """
 
 from collections.abc import AsyncGenerator, Callable, Sequence
-from math import nan
+from math import inf, nan
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -23,7 +23,7 @@ from app.studies.statistics import ASSUMED_DEVIATION, RELATIVE_DEVIATION, Limit
 from solvers.arrays import FloatArray
 
 MORE = 0.1  # a class is worth its price if the probability rises by less than this share, by the issue's users
-SURE = 1.645  # standard errors on one side of a sure comparison, 95 %
+SURE = 0.95  # confidence of a sure comparison, on one side
 FILM_SAFETY = "micropitting.local.safety"
 SCUFFING, MICROPITTING = "scuffing", "micropitting"
 ASSUMED_FILM = "the permissible film scatters by 0.15 of itself, as the scuffing temperature does; no source is known"
@@ -102,39 +102,47 @@ def probability(kinds: Sequence[Damage], values: FloatArray) -> Line:
 
 
 def _by_replicate(kinds: Sequence[Damage], values: FloatArray, kind: str) -> FloatArray:
-    """Probability of a kind of damage in each replicate; machines without solution count as good."""
+    """Probability of a kind of damage in each replicate; machines with an unsolved case count as damaged."""
     limit, output = judged(kinds, values)[kind]
-    return np.asarray(np.nan_to_num(limit.exceeded(output).max(axis=-1), nan=0.0).mean(axis=1))
+    return np.asarray(np.nan_to_num(limit.exceeded(output).max(axis=-1), nan=1.0).mean(axis=1))
 
 
 def of_class(kinds: Sequence[Damage], values: FloatArray, exact: FloatArray) -> Line:
     """Return the probability of damage, and `more`: by which share it exceeds that with exact flanks, over equal draws.
 
-    `more_error` is the standard error of `more`; None with one replicate. Both are None if exact flanks are safe.
+    Machines with an unsolved case count as damaged. `more_error` is the standard error of `more`; None with one
+    replicate. Both are 0 if neither damage is probable, and None if only exact flanks are safe: no finite share would
+    tell by how much. `enough` says whether the class costs less than a tenth more.
     """
     found, reference = probability(kinds, values), _by_replicate(kinds, exact, probability(kinds, exact)["kind"])
-    own, more, error = _by_replicate(kinds, values, found["kind"]), None, None
-    if reference.mean() > LEAST:
+    own = _by_replicate(kinds, values, found["kind"])
+    more: float | None = None
+    error: float | None = None
+    if max(own.mean(), reference.mean()) <= LEAST:
+        more = error = 0.0
+    elif reference.mean() > LEAST:
         ratio = float(own.mean() / reference.mean())
         more = ratio - 1.0
         if own.size > 1:
             rest = own - ratio * reference  # error of a ratio of means, to first order
             error = float(rest.std(ddof=1) / np.sqrt(own.size) / reference.mean())
-    return {**found, "more": more, "more_error": error}
+    return {**found, "more": more, "more_error": error, "enough": more is not None and more < MORE}
 
 
-def coarsest(rows: Sequence[Line]) -> tuple[int | None, bool]:
+def coarsest(rows: Sequence[Line], replicates: int) -> tuple[int | None, bool]:
     """Return the coarsest class that costs less than a tenth more, and whether the draws leave that open.
 
     The classes are in rising order; a class after one that costs more does not count.
     """
+    from scipy.stats import t  # noqa: PLC0415  half a second that only studies need
+
+    reach = float(t.ppf(SURE, replicates - 1)) if replicates > 1 else inf  # a few samples know their error badly
     found, is_open = None, False
     for row in rows:
         more, error = row["more"], row["more_error"]
-        if more is None:
-            return None, False
-        is_open |= error is not None and abs(more - MORE) < SURE * error
-        if more >= MORE:
+        if more is not None:
+            is_open |= error is None or abs(more - MORE) < reach * error
+        if not row["enough"]:
             break
         found = row["quality_class"]
     return found, is_open
@@ -173,7 +181,7 @@ class Pricing:
     def __init__(
         self, base: BaseRequest, given: MachineDraws, load_cases: list[Overrides], elsewhere: set[str], asked: Question
     ) -> None:
-        self.machines = Machines(given, base, elsewhere, "tolerances")
+        self.machines = Machines(given, base, load_cases[0], elsewhere, "tolerances")
         self.load_cases = load_cases
         self.kinds = damages(base.checked({**self.machines.typical, **load_cases[0]}))
         columns = columns_of(self.kinds)
@@ -223,7 +231,7 @@ class Pricing:
             rows.append({"quality_class": quality_class, "tolerances": widths, **found})
             yield rows[-1]
         described = await self._drawn(pool, clock, {}, machines.reference, flow)
-        enough, is_open = coarsest(rows)
+        enough, is_open = coarsest(rows, machines.given.replicates)
         varied = machines.variations(at)
         alone = [row for each in varied for row in each.rows]
         cases = self.load_cases

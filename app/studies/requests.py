@@ -4,7 +4,16 @@ import re
 from itertools import accumulate
 from typing import Annotated, Any, ClassVar, Literal, Self
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, WithJsonSchema, model_validator
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    ValidationInfo,
+    WithJsonSchema,
+    field_validator,
+    model_validator,
+)
 from pydantic_core import PydanticCustomError
 
 from app.schema.quantities import Input
@@ -172,12 +181,14 @@ class Listed(Spread):
         Input("weights", text="how often each value occurs, relative to the others", default_text="equal weights"),
     ] = None
 
-    @model_validator(mode="after")
-    def one_weight_per_value(self) -> Self:
+    @field_validator("weights")
+    @classmethod
+    def one_weight_per_value(cls, weights: list[float] | None, info: ValidationInfo) -> list[float] | None:
         """Refuse weights whose number is not that of the values."""
-        if self.weights is not None and len(self.weights) != len(self.values):
+        values = info.data.get("values")
+        if weights is not None and values is not None and len(weights) != len(values):
             raise PydanticCustomError("weights", "Give one weight for each value, or no weights")
-        return self
+        return weights
 
     @property
     def ends(self) -> list[float]:

@@ -68,11 +68,11 @@ class Progress(NamedTuple):
 
 
 class Clock:
-    """The running time of a study and the number of its solved points."""
+    """The running time of a study and the number of its solved points, `kept` of which took no time."""
 
     def __init__(self, total: int) -> None:
         self.total = total
-        self.done = 0
+        self.done = self.kept = 0
         self._started = time.perf_counter()
 
     @property
@@ -82,10 +82,10 @@ class Clock:
 
     @property
     def progress(self) -> Progress:
-        """The progress of the study; the points still to solve are expected to take as long as those solved so far."""
+        """The progress of the study; the points still to solve are expected to take as long as those solved now."""
         elapsed, left = self.elapsed_s, None
-        if self.done:
-            left = elapsed * max(self.total - self.done, 0) / self.done
+        if self.done > self.kept:
+            left = elapsed * max(self.total - self.done, 0) / (self.done - self.kept)
         return Progress(self.done, self.total, left if left and elapsed + left > LONG_S else None)
 
     def line(self) -> Line:
@@ -139,7 +139,9 @@ async def in_order(
             done, rest = sent[: len(chunk.points)], sent[len(chunk.points) :]
             if rest:
                 pending.appendleft(submit(rest))
-            if chunk.seconds is not None:
+            if chunk.seconds is None:
+                clock.kept += len(done)
+            else:
                 seconds = max(chunk.seconds / len(done), pool.chunk_s / MOST_POINTS_IN_A_CHUNK)  # time per point
                 size = max(1, round(pool.chunk_s / seconds))
             clock.done += len(done)

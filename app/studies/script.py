@@ -17,7 +17,7 @@ from app.spreadsheet import frame_of
 from app.studies.kept import Kept, case_of_point
 from app.studies.kinds import KINDS
 from app.studies.points import Chunk, solve_chunk
-from app.studies.runner import Clock, Line, Lines, Study, json_line
+from app.studies.runner import Clock, Line, Lines, Progress, Study, json_line
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -26,7 +26,7 @@ Map = Callable[[Callable[[Any], Any], list[Any]], Iterable[Any]]
 
 MOST_POINTS = 1_000_000  # of a study; the bodies of studies allow no more
 LOST = "the processes behind the map are lost; with `kept` the study goes on where it was"
-BY_DASK = {"KilledWorker": WorkerLost, "ClosedClientError": PoolLost}  # by name: Dask is an extra
+BY_DASK = {"KilledWorker": WorkerLost, "ClosedClientError": PoolLost, "CommClosedError": PoolLost}  # an extra: by name
 
 
 class Later:
@@ -105,7 +105,7 @@ def _losses_told() -> Iterator[None]:
     """Raise PoolLost instead of the errors that executors and Dask raise if their processes are gone."""
     try:
         yield
-    except (BrokenExecutor, CancelledError, asyncio.CancelledError, OSError) as error:
+    except (BrokenExecutor, CancelledError, asyncio.CancelledError, ConnectionError) as error:
         raise PoolLost(LOST) from error
     except Exception as error:
         if lost := BY_DASK.get(type(error).__name__):
@@ -117,16 +117,26 @@ class Run:
     """A study in a script. Iterating over it solves the study; `done` of `total` points are solved."""
 
     def __init__(self, plan: Study, map: Map, kept: Kept | None) -> None:  # noqa: A002
-        self.plan, self.total = plan, plan.total
+        self.plan = plan
         self._map, self._kept = map, kept
         self._clock = Clock(plan.total)
+
+    @property
+    def progress(self) -> Progress:
+        """How many points are solved, of how many, and how long the rest will take."""
+        return self._clock.progress
 
     @property
     def done(self) -> int:
         return self._clock.done
 
+    @property
+    def total(self) -> int:
+        """The number of points; a search finds out how many it needs while it runs."""
+        return self._clock.total
+
     def __iter__(self) -> Iterator[Line]:
-        self._clock = Clock(self.total)
+        self._clock = Clock(self.plan.total)
         for group in _stepped(self.plan.lines(MapPool(self._map, self._kept), self._clock)):
             for line in group:
                 yield json.loads(json_line(line))
@@ -188,8 +198,8 @@ def study(endpoint: str, body: Line, map: Map = map, kept: str | Path | None = N
     Examples
     --------
     >>> from app.examples import study_bodies
-    >>> coupling = study_bodies("/v1/sweep")["coupling"]["value"]
-    >>> [line["type"] for line in study("/v1/sweep", coupling)][-1]
+    >>> body = study_bodies("/v1/sweep")["cases"]["value"]
+    >>> [line["type"] for line in study("/v1/sweep", body)][-1]
     'end'
     """
     plans = {kind.path: kind for kind in KINDS}

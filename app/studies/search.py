@@ -14,11 +14,12 @@ from typing import Literal, NamedTuple
 
 from scipy.optimize import brentq, minimize_scalar
 
+from app.schema.precision import is_constant
+
 Extreme = Literal["least", "greatest"]
 
 PLACE_WITHIN = 1e-6  # of the range; brackets are not narrowed further
-VALUE_WITHIN = 1e-6  # of the wanted value or the spread of the curve; a value this close is the wanted one
-FLAT = 1e-7  # relative change of an output that the tolerance of an iteration can cause
+VALUE_WITHIN = 1e-6  # of the wanted value, or of the spread of the curve if that is zero; this close is as wanted
 JUMP = 1e-2  # of the spread of the curve; a larger change between two places that cannot be told apart is a jump
 EDGE = 1 / 16  # of a step of the scan; ends of gaps are not narrowed further
 MOST_AT_EDGES = 24  # places that narrow the ends of gaps; more gaps than these find out are no curve
@@ -73,14 +74,14 @@ class Search:
     @property
     def is_constant(self) -> bool:
         """Whether the output does not depend on the input: at least two places have an output, and all are equal."""
-        outputs = [abs(output) for _, output in self.solved]
-        return len(outputs) > 1 and self.spread <= FLAT * max(outputs)
+        return is_constant([output for _, output in self.solved])
 
     def side(self, output: float) -> int:
         """Return on which side of the wanted value an output lies: -1 below, 0 at it, 1 above."""
         assert self.wanted is not None
         beyond = output - self.wanted
-        return 0 if abs(beyond) <= VALUE_WITHIN * max(abs(self.wanted), self.spread) else 1 if beyond > 0.0 else -1
+        # The spread is no scale of another value: of a curve over decades it is that of the far end.
+        return 0 if abs(beyond) <= VALUE_WITHIN * (abs(self.wanted) or self.spread) else 1 if beyond > 0.0 else -1
 
     @property
     def nearest(self) -> tuple[float, float] | None:

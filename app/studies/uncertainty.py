@@ -5,7 +5,7 @@ of the heat band, or the tolerance that is declared at the field. What a request
 but for the error of the measurement. All ranges are chosen; no measurement above 50 m/s was readable.
 """
 
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable, Iterator
 from math import cos
 from typing import Any
 
@@ -58,6 +58,11 @@ def assumptions_of(
         for path, (_, reason) in distributions.items()
         if path in paths
     ]
+
+
+def quantities_of(reasons: Iterable[str]) -> list[str]:
+    """Name what these reasons are about, each once, such as friction."""
+    return list(dict.fromkeys(reason.removeprefix(f"{OF_THE_MODEL}: ").partition(",")[0] for reason in reasons))
 
 
 def _is_balanced(request: Request) -> bool:

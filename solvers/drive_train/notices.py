@@ -182,7 +182,7 @@ def face_heat_notices(inputs: DriveTrainInputs, path: PathOfContact, faces: Sequ
     slenderness = pi * wheel.root_radius / path.plane.face_width
     if faces and slenderness > SLENDER and inputs.wheel_shaft.gear_body is None:
         message = (
-            "the wheel is taken as solid; a rim on a web grows up to three times as much. Give gear_body if it has one"
+            "the wheel is taken as solid; a rim on a web grows up to three times as much. Give its rim if it has one"
         )
         yield Notice("solid_wheel", message, "wheel_shaft.gear_body", rank="note")
     if not faces and inputs.effects.thermal and any(responses) and slenderness > 1.0:

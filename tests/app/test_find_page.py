@@ -1,5 +1,6 @@
 """The page of a search says its answer in a sentence, draws the curve, and links to the cases of the answers."""
 
+import json
 import re
 from dataclasses import replace
 from html import unescape
@@ -44,7 +45,7 @@ def result_of(found: Asked) -> tuple[SolveForPage, list[dict[str, Any]], str]:
 
 def said(html: str) -> str:
     (sentence,) = re.findall(r'<p class="conclusion">(.*?)</p>', html)
-    return str(sentence)
+    return str(sentence).replace("\u00a0", " ")
 
 
 def buttons(html: str) -> dict[str, str]:
@@ -61,6 +62,20 @@ def test_the_answer_opens_the_case_that_was_solved() -> None:
     assert re.search(r'alt="Thrust to be held over transmitted torque\. 10.000.N at 3665.N m"', html)
 
 
+def test_the_script_knows_the_places_in_the_image_for_phones_too() -> None:
+    html = result_of(asked(COUPLING, x=TORQUE, wanted="10000"))[2]
+    study = json.loads(html.partition('data-study="')[2].partition('">')[0])
+    assert len(study["narrow"]) == len(study["box"]) == 4
+    assert study["narrow"] != study["box"]
+
+
+def test_a_search_beyond_the_range_keeps_what_goes_along_with_the_case() -> None:
+    along = {"rexs_file": "mill.rexs", "pair": "gears.module_mm=3"}
+    html = result_of(asked(COUPLING, x=TORQUE, wanted="1e6", **along))[2]
+    (address,) = [address for text, address in buttons(html).items() if text.startswith("Search from")]
+    assert along.items() <= asked_by(address).views.items()
+
+
 @pytest.mark.parametrize(
     ("views", "sentence"),
     [
@@ -70,7 +85,7 @@ def test_the_answer_opens_the_case_that_was_solved() -> None:
         ),
         (
             {"x": TORQUE, "goal": "least"},
-            "Transmitted torque 0 N m: the thrust to be held is least there, 0 N, the lower end",
+            "Transmitted torque 0 N m: the thrust to be held is least there, 0 N, the lower end of the range.",
         ),
         (
             {"x": GRADE, "wanted": "1", "show": LIMIT},
@@ -101,13 +116,13 @@ def test_the_answer_comes_first(views: dict[str, str], sentence: str) -> None:
     assert said(result_of(asked(COUPLING, **views))[2]).startswith(sentence)
 
 
-def found_with(**end: Any) -> str:
+def found_with(extreme: str | None = None, **end: Any) -> str:
     """Return the sentence about the last line of a search for a torque."""
     calculation = BY_PATH["/v1/coupling"]
     leaf, output = leaf_at(calculation.request, TORQUE), leaf_at(calculation.response, THRUST)
     assert leaf is not None
     assert output is not None
-    header = {"find": {"min": 0.0, "max": 9.0, "scale": "linear"}, "equals": 5.0, "extreme": None}
+    header = {"find": {"min": 0.0, "max": 9.0, "scale": "linear"}, "equals": 5.0, "extreme": extreme}
     usual = {"answers": [], "crossings": [], "nearest": {"at": 1.0, "out": 2.0, "end": None}, "constant": False}
     return Found(leaf, output, header, usual | end).answer()
 
@@ -120,6 +135,13 @@ def test_jumps_and_gaps_are_no_answers() -> None:
     gap = {"kind": "gap", "between": [3.0, 4.0], "out": [1.0, 8.0]}
     assert found_with(crossings=[gap]) == "No solution between 3 N m and 4 N m, where the thrust to be held passes 5 N."
     assert found_with(nearest=None) == "No answer: no point of the range has a solution."
+
+
+def test_more_beyond_an_end_is_said_only_where_the_field_permits_it() -> None:
+    least, greatest = ({"at": at, "out": 2.0, "end": end} for at, end in ((0.0, "min"), (9.0, "max")))
+    assert found_with("least", answers=[least], nearest=least).endswith("2 N, the lower end of the range.")
+    told = found_with("greatest", answers=[greatest], nearest=greatest)
+    assert told.endswith("2 N, the upper end of the range: it may be greater beyond.")
 
 
 def test_without_an_answer_the_search_goes_on_beyond_the_nearest_end() -> None:
@@ -153,6 +175,7 @@ def test_the_usual_value_is_well_above_a_lower_limit() -> None:
     assert study.study.body.equals == 2.0
 
 
+@pytest.mark.ci
 def test_over_the_grade_the_page_says_whose_stage_it_is_and_offers_both_ways_out() -> None:
     said_of = {"x": GRADE, "show": S_LAMBDA, "wanted": "1.2"}
     study, lines, html = result_of(asked(PITTED, **said_of))
@@ -204,7 +227,7 @@ def test_the_curve_shows_the_wanted_value_and_both_lines_of_the_verdict() -> Non
 def test_a_page_streams_its_search(client: httpx.Client) -> None:
     page = client.get(SolveForPage(asked(COUPLING, x=TORQUE, wanted="10000")).view(""))
     assert page.status_code == 200
-    assert "Transmitted torque 3665 N m" in unescape(page.text)
+    assert "Transmitted torque 3665 N m" in unescape(page.text).replace("\u00a0", " ")
     told = client.get(SolveForPage(asked(COUPLING, x=TORQUE, wanted="10000")).view(".ndjson"))
     assert told.text.count('"type":"end"') == 1
 
@@ -269,3 +292,13 @@ def test_the_time_left_is_said_if_it_is_long() -> None:
     clock._started -= 10.0
     assert clock.progress.left_s == pytest.approx(10.0, abs=0.5)
     assert clock.line()["left_s"] == pytest.approx(10.0, abs=0.5)
+    clock.total, clock.kept, clock.done = 2000, 1000, 1010
+    assert clock.progress.left_s == pytest.approx(990.0, rel=0.05), "points that were kept took no time"
+
+
+def test_a_search_that_ends_before_its_first_point_says_why() -> None:
+    study = checked(SolveForPage, asked(COUPLING, x=TORQUE, wanted="10000"))
+    lines = [study.study._header(), {"type": "error", "code": "lost", "message": "The power failed.", "done": 0}]
+    assert "Ended after 0 of 21 points" in whole(study, lines)
+    assert "The power failed." in whole(study, lines)
+    assert "Ended after 25 of 29 points" in pages.drawn(study, lines, Progress(25, 29)).decode()

@@ -103,7 +103,7 @@ def test_the_form_asks_for_every_field(calculation: Calculation) -> None:
     names = {name for name, _ in read_form(empty(calculation))[0]}
     for leaf in leaves(calculation.request):
         if leaf.path != "detail":
-            first = ".0.0" if leaf.dimensions == MATRIX else ""
+            first = ".0.0" if leaf.dimensions == MATRIX else ".0" if leaf.pair else ""
             assert leaf.path.replace(ITEM, "0") + first in names, leaf.path
 
 

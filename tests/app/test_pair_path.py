@@ -3,6 +3,7 @@
 import re
 from html import unescape
 from math import pi
+from types import SimpleNamespace
 from typing import Any
 
 import httpx
@@ -17,6 +18,7 @@ from app.models.drive_train.typical import (
     MOST_WIDTH,
     PRESSURE,
     RULES,
+    SHAFT_END,
     SHEAR,
     WIDTH,
     typical_unit,
@@ -26,7 +28,7 @@ from app.pages.carried import carried_to, offers
 from app.pages.cases import Asked
 from app.pages.overview import new_pair_page
 from app.pages.pair_path import ENTRY, TRAIN, WITH_PAIR, Step, assumed_of, path_of, template, with_typical
-from app.pages.pair_report import others_of, report_of
+from app.pages.pair_report import _step, others_of, report_of
 from app.pages.query import body_of, pairs_of
 from app.schema.reading import validated
 from solvers.gears.inputs import GearPairInputs, GearTeeth
@@ -75,7 +77,28 @@ def test_typical_shafts_are_a_unit_that_the_drive_train_takes(basis: dict[str, A
         assert face_end < second.position - second.width / 2
         assert shaft.start - 1e-9 <= shaft.torque_position <= shaft.end + 1e-9
         assert all(bearing.width / bearing.diameter >= WIDTH - 1e-9 for bearing in shaft.bearings)
+        assert all(bearing.width / bearing.diameter <= MOST_WIDTH + 1e-9 for bearing in shaft.bearings)
     assert {value.rule for value in filled.values()} < set(RULES)
+
+
+def test_a_bearing_of_the_smallest_shaft_is_not_wider_than_its_rule_permits() -> None:
+    gears = GearPairInputs(GearTeeth(15), GearTeeth(60), 0.8e-3, 8e-3, rack_tip_radius=0.25)
+    unit = typical_unit(gears, 20.0)
+    journal, width = (unit[f"pinion_shaft.bearings.0.{name}_mm"].value for name in ("diameter", "width"))
+    assert WIDTH * journal < width <= MOST_WIDTH * journal
+
+
+@pytest.mark.parametrize("power_kw", [100.0, 2000.0, 12000.0, 20000.0])
+def test_a_shaft_end_carries_the_torque_that_its_journal_carries(power_kw: float) -> None:
+    gears = GearPairInputs(GearTeeth(39), GearTeeth(130), 6e-3, 0.2, helix_angle=0.2, rack_tip_radius=0.25)
+    torque = 1e3 * power_kw / (10000 * pi / 30)
+    unit = typical_unit(gears, torque)
+    for shaft, place, own in (("pinion_shaft", 0, torque), ("wheel_shaft", 5, torque * 130 / 39)):
+        journal = unit[f"{shaft}.bearings.0.diameter_mm"].value
+        end = unit[f"{shaft}.sections.{place}.outer_diameter_mm"]
+        assert end.rule == "end"
+        assert SHAFT_END * journal <= end.value <= journal
+        assert 16e3 * own / (pi * end.value**3) <= SHEAR or end.value == journal
 
 
 @pytest.mark.parametrize("power_kw", [2000.0, 12000.0, 20000.0])
@@ -110,13 +133,14 @@ def test_every_step_of_the_path_takes_the_pair_along() -> None:
     steps = steps_of(here)
     assert [step.question for step in path_of(here) if step.current] == ["Safe?"]
     given = dict(here.pairs)
+    assert not any(step.trouble for step in steps.values())
     for question in ("Choked?", "On shafts", "What to grind", "One report"):
         there = dict(asked_by(steps[question].address.replace("/design?", "?").replace("/report?", "?")).pairs)
         assert {name: there[name] for name in given if name.startswith("gears.")} == {
             name: text for name, text in given.items() if name.startswith("gears.")
         }
     train = train_of(here)
-    assert train_of(carried_to(train, BY_PATH["/v1/pumping"])).pairs[: len(given)]
+    assert dict(train_of(carried_to(train, BY_PATH["/v1/pumping"])).pairs) == dict(train.pairs)
     assert steps["One report"].address.startswith("/drive-train/report?")
     assert f"extent={WITH_PAIR}" in steps["One report"].address
     html = html_of(train.__class__("/drive-train", [], {}))
@@ -171,7 +195,26 @@ def test_a_pair_without_load_has_no_shafts_yet() -> None:
     here = Asked("/scuffing", [("gears.pinion.teeth", "39")])
     step = steps_of(here)["On shafts"]
     assert step.address == ""
-    assert "number of teeth" in step.lacks
+    assert "number of teeth" in step.trouble
+
+
+def test_shafts_are_not_asked_for_where_typical_ones_would_do() -> None:
+    steps = steps_of(asked("milian-case-1"))
+    for question in ("On shafts", "What to grind", "One report"):
+        assert steps[question].trouble == "missing: pinion torque or transmitted power"
+    assert steps["On shafts"].title == "typical shafts and bearings"
+
+
+def test_a_case_that_is_too_long_for_a_link_says_so_and_offers_nothing() -> None:
+    here = asked(PAIR)
+    long = Asked(
+        here.path, here.pairs, {"pair": "&".join(f"pinion_shaft.sections.{k}.length_mm=1" for k in range(300))}
+    )
+    assert offers(here)
+    assert offers(long) == []
+    step = steps_of(long)["Choked?"]
+    assert (step.address, step.trouble) == ("", "the case is too long for a link")
+    assert step.trouble in html_of(long)
 
 
 def test_the_new_pair_is_a_short_form_of_the_scuffing_page() -> None:
@@ -202,9 +245,37 @@ def test_a_pair_that_cannot_be_pumped_says_why(client: httpx.Client) -> None:
     assert "Not computed yet" in page.text
 
 
+def test_a_mesh_without_solution_hands_nothing_on(monkeypatch: pytest.MonkeyPatch) -> None:
+    unsolved, page = SimpleNamespace(response=SimpleNamespace(status="no_solution")), views.Shown(b"why")
+    monkeypatch.setattr(views, "solved", lambda *_: unsolved)
+    monkeypatch.setattr(views, "page", lambda _: page)
+    assert views.handed_on(carried_to(asked(PAIR), BY_PATH["/v1/pumping"]), "/v1/scuffing") is page
+
+
 def test_an_answer_hands_on_only_where_it_is_an_input(client: httpx.Client) -> None:
     assert client.get("/pumping/into/drive-train?a=b").status_code == 404
     assert client.get("/scuffing/into/pumping").status_code == 404
+
+
+def test_the_pair_alone_is_judged_without_the_slope_that_the_unit_needs() -> None:
+    """A flank that is ground for bent shafts looks wrong on aligned ones (row 7 of the worked example)."""
+    train = train_of(asked(PAIR))
+    ground = Asked(train.path, [*train.pairs, ("modifications.helix_slope_um", "50")], {"extent": WITH_PAIR})
+    scuffing, pumping = others_of(ground)
+    assert (scuffing.path, pumping.path) == ("/scuffing", "/pumping")
+    assert "modifications.helix_slope_um" not in dict(scuffing.pairs)
+    assert "modifications.lead_crowning_um" in dict(scuffing.pairs)
+    assert others_of(Asked(ground.path, ground.pairs)) == []
+
+
+@pytest.mark.parametrize(("slope", "is_said"), [("50", True), ("0", False), (None, False)])
+def test_the_report_speaks_of_the_slope_only_if_there_is_one(slope: str | None, is_said: bool) -> None:
+    train, there = train_of(asked(PAIR)), Asked("/scuffing", [])
+    given = [("modifications.helix_slope_um", slope)] if slope else []
+    step = _step(there, Asked(train.path, [*train.pairs, *given]))
+    assert bool(step["note"]) == is_said
+    assert step["judged"] == " (pair alone, aligned)"
+    assert _step(there, carried_to(train, BY_PATH["/v1/pumping"]))["judged"] == ""
 
 
 @pytest.mark.ci
@@ -217,6 +288,7 @@ def test_one_report_holds_all_steps_and_marks_what_is_assumed() -> None:
     assert shown.status == 200
     for question in ("Safe?", "Choked?"):
         assert re.search(rf"<h2>{re.escape(question)} \w", text)
+    assert "Safe? (pair alone, aligned) " in text
     assert "Typical shafts and bearings: " in text
     sheet = text.partition("<h2>What to grind</h2>")[2].partition("</table>")[0]
     assert re.search(r"helix slope, over the face width.*?>20<", sheet, re.DOTALL)

@@ -56,9 +56,9 @@ def test_the_table_says_what_the_study_says(name: str) -> None:
 def test_the_figure_shows_the_most_influential_first() -> None:
     lines, page = result_of(asked(COUPLING))
     alt = re.findall(r'alt="([^"]+)"', page)[0]
-    first = "coefficient of friction, number of teeth and module first"
+    first = "coefficient of friction, transmitted torque and number of teeth first"
     assert alt.startswith(f"What moves the thrust to be held most. 8186\xa0N now; {first}")
-    assert [line["path"] for line in lines[:3]] == ["friction.coefficient", "coupling.teeth", "coupling.module_mm"]
+    assert [line["path"] for line in lines[:3]] == ["friction.coefficient", "operation.torque_n_m", "coupling.teeth"]
 
 
 def test_a_case_without_the_output_says_so() -> None:

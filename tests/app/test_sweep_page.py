@@ -176,7 +176,7 @@ def test_the_best_point_is_the_one_of_the_sweeps_end(client: httpx.Client) -> No
     lines = [json.loads(line) for line in client.get(study.view(".ndjson")).text.splitlines()]
     page = whole(study, lines)
     best = lines[-1]["best"]
-    assert f"at helix slope {best['at'][0]:g} µm, helix crowning {best['at'][1]:g} µm" in page
+    assert f"at helix slope {best['at'][0]:g} µm, helix crowning {best['at'][1]:g} µm" in page.replace("\u00a0", " ")
 
 
 def grid(*sizes: int, **more: Any) -> Grid:
@@ -279,8 +279,8 @@ def test_a_fault_of_the_case_is_named_by_the_title_of_its_field() -> None:
     for html in (study, html_of(wrong, 422)):
         problem = re.search(r'<div class="problem".*?</div>', html, re.DOTALL)
         assert problem
-        said = problem[0].replace("\u00a0", " ").replace("−", "-")
-        assert "transmitted torque is -5; permissible: 0 to 100000000 N m" in said
+        told = problem[0].replace("\u00a0", " ").replace("−", "-")
+        assert "transmitted torque is -5; permissible: 0 to 100000000 N m" in told
     assert "torque_n_m" not in re.sub(r"<[^>]*>", "", study[study.index('class="problem"') :])
 
 

@@ -23,6 +23,7 @@ from app.pages.study_links import study_links
 from app.pages.typesetting import shown
 from app.studies.price import coarsest
 from app.studies.runner import Progress
+from app.studies.uncertainty import LOAD
 from tests.support.pages import asked, asked_by, checked, lines_of, opened, whole
 
 UNIT, DOUBLE = "starter-generator-gear-drive-train", "starter-turbo-double-helical"
@@ -118,13 +119,14 @@ def test_the_grinding_proposed_is_that_of_the_search_and_leads_to_its_case() -> 
     assert numbers["best at the worst corner"] == shown(end["best"][SLOPE], 4)
     assert numbers["to grind"] == shown(wanted["at"][SLOPE], 4)
     result = study.result(lines)
-    assert list(result.figures) == ["price", "lead", "face-load", "gap", "search"], "the search comes last"
-    assert set(result.figures) | {"dominating"} == set(DesignPage.figures)
+    order = ["price", "dominating", "lead", "face-load", "gap", "search"]
+    assert list(result.figures) == order, "the search comes last"
+    assert set(result.figures) == set(DesignPage.figures)
     reached = result.figures["search"].panels[0].lines[0].y.tolist()
     assert reached == [line["objective"] for line in lines if line["type"] == "trial"]
     pairs = dict(asked_by(result.leads[0].address).pairs)
     assert {path: float(pairs[path]) for path in wanted["at"]} == wanted["at"]
-    assert result.leads[2].address.startswith("/drive-train/corners?")
+    assert result.leads[-1].address.startswith("/drive-train/corners?")
     at_worst = study.solved({**wanted["at"], **wanted["worst_corner"]}).response
     assert at_worst.safety.blok_flank == wanted["objective"]
 
@@ -152,7 +154,7 @@ def test_how_exactly_to_grind_is_said_first_with_its_numbers() -> None:
 
 
 def priced(more: tuple[float | None, ...], chance: float = 0.04) -> dict[str, Any]:
-    """A price with these additional costs of classes 3, 4, ..."""
+    """A price with these additional costs of classes 3, 4, ...; None is a third, where exact flanks are safe."""
 
     def row(probability: float, **parts: Any) -> dict[str, Any]:
         own = {"probability": probability, "bounds": (probability, probability), "interval": None, "unsolved": 0.0}
@@ -160,32 +162,55 @@ def priced(more: tuple[float | None, ...], chance: float = 0.04) -> dict[str, An
 
     classes = [
         row(
-            chance * (1.0 + (each or 0.0)),
+            1 / 3 if each is None else chance * (1.0 + each),
             quality_class=3 + place,
             more=each,
-            more_error=0.01,
+            more_error=0.01 if each else each,
+            enough=each is not None and each < 0.1,
             tolerances={"helix_slope_um": 7.0 + place, "profile_slope_um": 5.0},
         )
         for place, each in enumerate(more)
     ]
-    found, is_open = coarsest(classes)
-    said = {"machines": 64, "reference_class": 5, "coarsest_class": found, "undecided": is_open, "influences": []}
+    found, is_open = coarsest(classes, 4)
+    said: dict[str, Any] = {
+        "machines": 64,
+        "reference_class": 5,
+        "coarsest_class": found,
+        "undecided": is_open,
+        "influences": [
+            {"name": "helix slope", "paths": ["modifications.helix_slope_um"], "share": 0.6},
+            {"name": "offset", "paths": ["couplings.0.offset_um.0"], "share": 0.3},
+            {"name": "power", "paths": ["operation.power_kw"], "share": 0.1},
+        ],
+        "assumptions": [{"field": "operation.power_kw", "reason": LOAD}],
+    }
     return {"exact": row(chance), "classes": classes, **said}
 
 
 @pytest.mark.parametrize(
-    ("more", "verdict"),
+    ("more", "chance", "verdict"),
     [
-        ((0.01, 0.05, 0.5), "Class 4 is exact enough: damage is 4.2 % probable, with exact flanks 4 %, because ±8 µm"),
-        ((0.2, 0.5), "Not even class 3 is enough: damage is 4.8 % probable, 20 % more than with exact flanks (4 %)."),
-        ((None, None), "Any of these classes is enough: even with exact flanks damage is 4 % probable."),
+        (
+            (0.01, 0.05, 0.5),
+            0.04,
+            "Class 4 is exact enough: damage is 4.2 % probable, with exact flanks 4 %, because ±8 µm",
+        ),
+        (
+            (0.2, 0.5),
+            0.04,
+            "Not even class 3 is enough: damage is 4.8 % probable, 20 % more than with exact flanks (4 %).",
+        ),
+        ((0.0, 0.0), 1e-13, "Any of these classes is enough: even with class 4 damage is below 0.001 % probable."),
+        ((None, None), 0.0, "Not even class 3 is enough: damage is 33.3 % probable, with exact flanks 0 %."),
+        ((0.0, None), 0.0, "Class 3 is exact enough: damage is 0 % probable, with exact flanks 0 %, because ±7 µm"),
     ],
 )
-def test_the_verdict_on_the_tolerance(more: tuple[float | None, ...], verdict: str) -> None:
-    found = priced(more)
+def test_the_verdict_on_the_tolerance(more: tuple[float | None, ...], chance: float, verdict: str) -> None:
+    found = priced(more, chance)
     assert price_verdict(found).startswith(verdict)
-    assert price_figures(found)["price"].panels[0].rows[0].value == pytest.approx(4.0)
+    assert price_figures(found)["price"].panels[0].rows[0].value == pytest.approx(100.0 * chance)
     assert price_tables(found)[0].rows[0][0] == "exact"
+    assert price_tables(found)[0].note.endswith("Drawn are also offset, load.")
     assert not price_remarks(found)
 
 
@@ -261,7 +286,7 @@ def test_the_best_so_far_is_shown_while_the_search_runs_and_when_it_ends_early()
         assert judged[1:3] == [shown(trials[0]["objective"]), shown(best["objective"])]
         assert "Open the unit ground so" in text
         assert "Correction 3 of at most 5" in text
-    assert "9 of 12 points, about 1 min left" in pages.drawn(study, [], Progress(9, 12, 63.0)).decode()
+    assert "9 of 12 points, about 65 s left" in pages.drawn(study, [], Progress(9, 12, 63.0)).decode()
 
 
 def test_corners_are_those_typed_on_both_pages() -> None:
@@ -326,7 +351,7 @@ def test_the_report_of_a_search_has_the_grinding_sheet() -> None:
     text = unescape(pages.report(study, lines, "").decode())
     captions = re.findall(r"<caption>([^<]*)</caption>", text)
     first, *_ = (place for place, title in enumerate(captions) if title == "What to grind")
-    assert captions[first : first + 3] == ["What to grind", "What it brings", "Which number is which"]
+    assert captions[first : first + 3] == ["What to grind", "How exactly to grind", "What it brings"]
     sheet = text.partition("<caption>What to grind</caption>")[2].partition("</table>")[0]
     for row in rows_of(page, "What to grind"):
         assert [cell for cell in row if f">{cell}</td>" not in sheet] == []

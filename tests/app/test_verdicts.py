@@ -1,5 +1,6 @@
 """The first sentence of a result is its verdict; tiles, warnings and the parts of a page say what they are about."""
 
+import json
 import re
 from html import unescape
 from typing import Any
@@ -9,6 +10,7 @@ import pytest
 from app.calculations import BY_PATH, CALCULATIONS
 from app.examples import examples
 from app.models.card import Calculation, Verdict
+from app.pages import views
 from app.pages.cases import Asked, solved
 from app.pages.form import FormSection, FormState, form
 from app.pages.query import pairs_of
@@ -19,6 +21,7 @@ from tests.support.pages import asked, html_of
 from tests.support.requests import changed
 
 LIMITS, TURBO, UNIT = "starter-coupling-at-its-limits", "starter-turbo-coupling", "starter-turbo-gear-drive-train"
+SCUFFING = "starter-industrial-scuffing"
 CLOSED = {"model": {"lubrication": "closed_form"}}
 
 
@@ -26,6 +29,13 @@ def answer(name: str, **changes: Any) -> Any:
     """Return the answer of a changed example."""
     example = examples()[name]
     return solved(BY_PATH[example.endpoint], pairs_of(changed(example.request, changes)), None).response
+
+
+def without(name: str, *prefixes: str) -> Any:
+    """Return the answer of an example without the fields whose names begin so."""
+    example = examples()[name]
+    left = [pair for pair in pairs_of(example.request) if not pair[0].startswith(prefixes)]
+    return solved(BY_PATH[example.endpoint], left, None).response
 
 
 def text_of(html: str) -> str:
@@ -58,6 +68,14 @@ def test_the_turbo_coupling_is_permissible_and_free_axially() -> None:
     assert conclusion(found).startswith("Free axially: its thrust in motion is 1.41 %")
 
 
+@pytest.mark.parametrize(("capacity", "level"), [(0.05, "near"), (0.79, "near"), (0.953, "good")])
+def test_verdict_and_tile_judge_the_film_alike(capacity: float, level: str) -> None:
+    found, path = answer(TURBO), "lubrication.load_capacity_coefficient"
+    film = found.lubrication.model_copy(update={"load_capacity_coefficient": capacity})
+    found = found.model_copy(update={"lubrication": film, "warnings": []})
+    assert (verdict(found).level, tiles(found)[path].level) == (level, level)
+
+
 def test_sticking_teeth_come_first() -> None:
     operation = {**examples()[TURBO].request["operation"], "misalignment_deg": 0.0, "axial_velocity_mm_per_s": 0.0}
     assert verdict(answer(TURBO, operation=operation)).text.startswith("Locks axially: its teeth stick up to")
@@ -79,6 +97,13 @@ def test_a_pair_without_load_has_a_verdict(load: dict[str, float]) -> None:
     for name in ("xue-pair-1", "xue-pair-1-scuffing"):
         request = examples()[name].request
         assert verdict(answer(name, load={**request["load"], **load})).text.endswith(".")
+
+
+def test_flanks_without_load_do_not_scuff() -> None:
+    for name, load in ((SCUFFING, "load"), (UNIT, "operation")):
+        said = answer(name, **CLOSED, **{load: {**examples()[name].request[load], "power_kw": 0.0}})
+        assert verdict(said).text.startswith("No load: nothing presses the flanks together.")
+        assert "risk" not in verdict(said).text
 
 
 def test_no_torque_and_no_speed_have_a_verdict() -> None:
@@ -138,6 +163,52 @@ def test_an_invalid_result_says_so_first_and_a_doubtful_one_last() -> None:
     assert verdict(noted) == verdict(found.model_copy(update={"warnings": []}))
 
 
+def test_an_invalid_result_says_so_unless_the_verdict_names_it() -> None:
+    found = answer(LIMITS)
+    unstable = found.model_copy(
+        update={"warnings": [*found.warnings, warning("invalid", "unstable_regime", "the friction is unstable")]}
+    )
+    assert verdict(unstable).text.startswith("Not valid: the friction is unstable. Not permissible: ")
+    assert verdict(found).text.startswith("Not permissible: ")
+    pair = answer("xue-pair-1-scuffing")
+    bad = {"safety": pair.safety.model_copy(update={"blok_factor": 0.9})}
+    high = pair.model_copy(update={**bad, "warnings": [warning("invalid", "x", "the loop is unstable")]})
+    assert verdict(high) == Verdict("bad", "Not valid: the loop is unstable. High risk of scuffing: S_B 0.9.")
+
+
+def test_a_verdict_that_is_missing_says_why() -> None:
+    dry = without(SCUFFING, "lubricant.", "cooling.")
+    assert verdict(dry) == Verdict("plain", "No verdict: no oil.")
+    assert tiles(dry)["contact_temperature.blok_max_c"].remark == "no value; the warnings say why"
+    for name, hottest in (("xue-pair-1-scuffing", "158 °C"), (UNIT, "129 °C")):
+        said = verdict(without(name, "temperatures.scuffing", "micropitting."))
+        assert said.text.startswith(f"No verdict: no scuffing temperature. The contact reaches {hottest}.")
+    bare = without(UNIT, "lubricant.", "thermal.pinion_bulk", "thermal.wheel_bulk", "temperatures.scuffing")
+    assert verdict(bare).text.startswith("No verdict: no oil.")
+    cold = without("starter-turbo-gear-warm-up", "temperatures.scuffing")
+    assert verdict(cold).text.startswith("The bodies differ by ")
+
+
+def test_pages_of_units_without_a_scuffing_temperature_answer() -> None:
+    pairs = [pair for pair in pairs_of(examples()[UNIT].request) if not pair[0].startswith("temperatures.scuffing")]
+    unit = Asked("/drive-train", pairs)
+    said = unescape(html_of(unit)).replace("\u00a0", " ")
+    assert "No verdict: no scuffing temperature" in said
+    assert "no value; the warnings say why" not in said
+    summary = json.loads(views.summary(unit).content)
+    assert summary["verdict"].startswith("No verdict: no scuffing temperature.")
+
+
+def test_a_report_without_solution_says_so_and_has_no_tiles() -> None:
+    contact = {"line_load_n_per_mm": 68.0028, "radius_mm": 5, "speed_1_m_per_s": 10.5, "speed_2_m_per_s": 9.5}
+    body = {"contact": contact, "lubricant": {"viscosity_pa_s": 0.08}, "model": {"rheology": "newtonian"}}
+    unsolved = Asked("/scuffing/line-contact", pairs_of(body))
+    html = views.report(unsolved, "").content.decode()
+    assert 'class="conclusion finding bad">No solution: ' in html
+    assert '<div class="card ' not in html
+    assert json.loads(views.summary(unsolved).content)["verdict"].startswith("No solution: ")
+
+
 def test_only_the_tiles_that_a_warning_touches_point_to_it() -> None:
     found = answer("starter-industrial-scuffing", **CLOSED)
     cool = found.model_copy(update={"warnings": [warning("doubtful", "edge_load")]})
@@ -193,6 +264,8 @@ def test_equal_warnings_stand_once_with_the_bearings_that_they_mean() -> None:
 
 def test_numbers_stay_with_their_units() -> None:
     assert together("of -12 000 N m at 125 m/s, 3 of 5") == "of −12\u00a0000\u00a0N\u00a0m at 125\u00a0m/s, 3 of 5"
+    assert together("ISO/TS 6336-20 and -21, ISO/TR 13989-1 and -2") == "ISO/TS 6336-20 and -21, ISO/TR 13989-1 and -2"
+    assert together("between -1 and -2") == "between −1 and −2"
 
 
 def test_all_results_are_in_three_parts_without_loss() -> None:
@@ -235,8 +308,6 @@ def test_a_solved_form_folds_options_and_the_items_of_lists() -> None:
 
 
 def test_a_report_prints_no_address_of_this_computer_and_says_how_to_get_a_pdf() -> None:
-    from app.pages import views  # noqa: PLC0415  only here
-
     example = asked("pahl-sleeve-orbit")
     html = views.report(example, "http://127.0.0.1:8123").content.decode()
     printed = re.sub(

@@ -599,6 +599,7 @@ NOT_IN_FILES = {
     "temperatures.bulk_method": "follows from the bulk temperature",
     "temperatures.local_bulk": "a choice of the calculation",
     "temperatures.scuffing_test.*": "files give the temperature itself",
+    "friction_factor": "how uncertain the law of friction is",
     "standard.*": "the dynamic factor of a file belongs to the load; other factors in files are results of programs",
     "thermal.wall_response*": "unknown to the standard",
     "thermal.bulk_includes_pumping": "unknown to the standard",

@@ -104,6 +104,12 @@ def opened(client: httpx.Client, content: bytes, name: str = "mill 7.rexs") -> s
     return str(sent.headers["location"])
 
 
+def test_any_byte_may_stand_in_the_name_of_a_file(client: httpx.Client) -> None:
+    page = client.get(opened(client, three_stages().xml(), "mill\0 7.rexs"))
+    assert page.status_code == 200
+    assert "mill" in page.text
+
+
 def test_oil_is_given_once_for_all_stages(client: httpx.Client) -> None:
     address = opened(client, three_stages().xml())
     before = client.get(address).text

@@ -254,7 +254,7 @@ def test_a_script_goes_on_with_another_client_and_another_scheduler(tmp_path: Pa
 
 
 def test_an_adaptive_cluster_grows_with_a_study() -> None:
-    with LocalCluster(n_workers=0, threads_per_worker=1, dashboard_address=None) as cluster:  # noqa: SIM117
+    with LocalCluster(n_workers=0, threads_per_worker=1, dashboard_address=":0") as cluster:  # noqa: SIM117
         with Client(cluster, set_as_default=False) as client:
             cluster.adapt(minimum=1, maximum=2, interval="200ms", target_duration="1s")
             most = 0

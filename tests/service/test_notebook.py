@@ -5,6 +5,7 @@ import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -13,6 +14,11 @@ from tests.support.server import ROOT
 pytestmark = pytest.mark.service
 
 RUN = "import sys; from nbclient.cli import main; sys.exit(main())"  # in a process of its own: it brings an event loop
+
+
+def outputs_of(notebook: Path) -> list[dict[str, Any]]:
+    cells = [cell for cell in json.loads(notebook.read_text("utf-8"))["cells"] if cell["cell_type"] == "code"]
+    return [output for cell in cells for output in cell["outputs"]]
 
 
 @pytest.mark.parametrize(
@@ -31,8 +37,8 @@ def test_the_notebook_runs_and_draws(name: str, figures: int, expected: tuple[st
         env={**os.environ, "PYTHONPATH": str(ROOT)},
         check=True,
     )
-    cells = [cell for cell in json.loads(executed.read_text("utf-8"))["cells"] if cell["cell_type"] == "code"]
-    outputs = [output for cell in cells for output in cell["outputs"]]
+    outputs, stored = outputs_of(executed), outputs_of(notebook)
     assert sum("image/png" in output.get("data", {}) for output in outputs) == figures
+    assert sum("image/png" in output.get("data", {}) for output in stored) == figures, "store it with its outputs"
     texts = ["".join(output.get("text", output.get("data", {}).get("text/plain", ""))) for output in outputs]
     assert all(any(part in text for text in texts) for part in expected)

@@ -214,7 +214,7 @@ def test_cards_stay_in_sight(visit: Callable[..., Page]) -> None:
 
 def test_project_and_author_are_put_on_the_report(visit: Callable[..., Page]) -> None:
     page = visit(address_of(COUPLING))
-    page.get_by_role("link", name="Report").click()
+    page.get_by_role("link", name="Report", exact=True).click()
     page.get_by_label("project").fill("Mill 7")
     page.get_by_label("notes").fill("first line\nsecond line")
     page.get_by_role("button", name="Put on the report").click()
@@ -266,7 +266,7 @@ def test_compare(visit: Callable[..., Page]) -> None:
     parts = page.locator(".finding, .differences, .cards, #figures, #all")
     order = ["finding near", "cards", "panel differences", "charts", "panel"]
     assert parts.evaluate_all("parts => parts.map(part => part.className)") == order
-    page.get_by_role("link", name="Report").click()
+    page.get_by_role("link", name="Report", exact=True).click()
     expect(page.locator("body")).to_contain_text("Compared with variant A")
     assert page.get_by_text("variant A → this case").count() == 5
     assert page.locator('figure img[alt*="variant A"]').count() > 3
@@ -403,7 +403,7 @@ def test_a_long_case_is_posted(visit: Callable[..., Page]) -> None:
     assert page.url.endswith("/coupling?unlinked=on")  # no longer the case from which this one was made
     with page.expect_download() as download:
         page.get_by_role("button", name="Save as a file").click()
-    page.get_by_role("button", name="Report").click()
+    page.get_by_role("button", name="Report", exact=True).click()
     expect(page.locator("h2").first).to_contain_text("Verdict")
     page.goto("/coupling?unlinked=on")
     expect(page.locator(".warning")).to_contain_text("does not contain the case")

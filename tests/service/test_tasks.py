@@ -35,7 +35,7 @@ def test_a_scuffing_report_with_project_and_author(visit: Callable[..., Page]) -
     user.choose("ISO viscosity grade", "220")
     expect(page.locator(".card")).to_have_count(5)
     expect(page.locator("#copy")).to_have_attribute("href", re.compile("lubricant.iso_vg=220"))
-    user.click(page.get_by_role("link", name="Report"))
+    user.click(page.get_by_role("link", name="Report", exact=True))
     for label, text in (("project", "Mill 7"), ("author", "J. Doe")):
         page.get_by_label(label).fill(text)
         user.fields += 1

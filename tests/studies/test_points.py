@@ -177,7 +177,7 @@ def test_equal_assumptions_are_one_object_which_is_sent_once() -> None:
     question = Question("/v1/coupling", examples()["pahl-axial-displacement"].request, [], 30.0)
     torque, friction = "operation.torque_n_m", "friction.coefficient"
     points = [{torque: 3000}, {torque: 3001}, {friction: None}, {friction: None}]
-    first, second, third, fourth = (point.assumptions for point in solve_chunk(question, points, 0.25).points)
+    first, second, third, fourth = (point.assumptions for point in solve_chunk(question, points, 60.0).points)
     assert first is second
     assert third is fourth
     assert first != third

@@ -16,7 +16,7 @@ from app.studies.points import BaseRequest, with_overrides
 from app.studies.price import Damage, coarsest, influences, of_class, probability
 from app.studies.requests import DRIVE_TRAIN
 from solvers.arrays import FloatArray
-from tests.support.requests import changed
+from tests.support.requests import GONE, changed
 from tests.support.studies import fault_of, lines_of
 
 CALCULATION = BY_PATH[DRIVE_TRAIN]
@@ -35,7 +35,7 @@ def designed(request: dict[str, Any] = UNIT, **parts: Any) -> list[dict[str, Any
 
 
 def machines(request: dict[str, Any] = UNIT, **given: Any) -> Machines:
-    return Machines(MachineDraws(**given), BaseRequest(CALCULATION, request), {SLOPE}, "tolerances")
+    return Machines(MachineDraws(**given), BaseRequest(CALCULATION, request), {}, {SLOPE}, "tolerances")
 
 
 def values(contact: FloatArray, limit: float = 200.0, safety: float = 9.0) -> FloatArray:
@@ -51,30 +51,30 @@ def test_every_class_and_correction_meets_the_same_draws() -> None:
         rows = [drawn.overrides(draw, each, {SLOPE: 40.0}) for each in (None, 3, 7)]
         others = [{path: value for path, value in row.items() if path not in drawn.slopes} for row in rows]
         assert others[0] == others[1] == others[2]
-        off = [float(row[SLOPE]) - 40.0 for row in rows]  # type: ignore[arg-type]
+        off = [float(row[SLOPE]) - 40.0 for row in rows]
         assert off[0] == 0.0
         widths = [drawn.tolerances[each][SLOPE] for each in (3, 7)]
         assert off[1] / widths[0] == pytest.approx(off[2] / widths[1])
         moved = drawn.overrides(draw, 7, {SLOPE: 10.0})
-        assert float(moved[SLOPE]) - 10.0 == pytest.approx(off[2])  # type: ignore[arg-type]
+        assert float(moved[SLOPE]) - 10.0 == pytest.approx(off[2])
         twin = drawn.overrides(draw ^ 1, 7, {SLOPE: 40.0})
-        assert float(twin[SLOPE]) - 40.0 == pytest.approx(-off[2])  # type: ignore[arg-type]
+        assert float(twin[SLOPE]) - 40.0 == pytest.approx(-off[2])
         assert {path: twin[path] for path in others[0]} == others[0]
-    scores = np.array([float(drawn.overrides(draw, 7, {SLOPE: 0.0})[SLOPE]) for draw in range(32)])  # type: ignore[arg-type]
+    scores = np.array([float(drawn.overrides(draw, 7, {SLOPE: 0.0})[SLOPE]) for draw in range(32)])
     assert scores.std() == pytest.approx(drawn.tolerances[7][SLOPE] / 3, rel=0.15)
 
 
 def test_machines_lie_between_the_usual_corners() -> None:
     drawn = machines(count=16, replicates=1)
     rows = [drawn.overrides(2 * pair, None, {}) for pair in range(16)]
-    responses = [float(row["thermal.wall_response"]) for row in rows]  # type: ignore[arg-type]
+    responses = [float(row["thermal.wall_response"]) for row in rows]
     assert 0.3 <= min(responses) < 0.35
     assert 0.95 < max(responses) <= 1.0
     offsets = {(row["couplings.0.offset_um.0"], row["couplings.0.offset_um.1"]) for row in rows}
     assert offsets == {(0.0, 400.0), (-400.0, 0.0), (0.0, -400.0), (400.0, 0.0)}
     clearances = np.array(
         [[float(row[f"pinion_shaft.bearings.{k}.radial_clearance_um"]) for k in (0, 1)] for row in rows]
-    )  # type: ignore[arg-type]
+    )
     assert clearances.sum(axis=1) == pytest.approx(260.0)
 
 
@@ -104,7 +104,7 @@ def test_the_class_of_the_gears_judges_corrections() -> None:
         ({"classes": [12]}, "/tolerances/classes/0", "less_than_equal"),
         ({"classes": ["5"]}, "/tolerances/classes/0", "number_type"),
         ({"replicates": 1e9}, "/tolerances/replicates", "less_than_equal"),
-        ({"count": 4096, "replicates": 100}, "/evaluations", "too_many_points"),
+        ({"count": 64}, "/tolerances/count", "too_many_points"),
         ({"uncertain": [{"path": SLOPE, "values": [1, 2]}]}, "/tolerances/uncertain", "duplicate_path"),
         ({"uncertain": [{"path": "no.such", "values": [1]}]}, "/tolerances/uncertain/0/path", "unknown_path"),
         (
@@ -124,6 +124,22 @@ def test_the_class_of_the_gears_judges_corrections() -> None:
 def test_refusals(tolerances: dict[str, Any], pointer: str, code: str) -> None:
     body = {"request": UNIT, "variables": [HELIX], "tolerances": tolerances}
     assert fault_of(Design, body)[:2] == (pointer, code)
+
+
+def test_what_the_load_cases_set_may_be_missing_in_the_request() -> None:
+    lacking = changed(UNIT, {"operation.power_kw": GONE})
+    cases = [{"operation.power_kw": 12000}, {"operation.power_kw": 6000}]
+    study = Design(
+        {"request": lacking, "variables": [HELIX], "collective": cases, "tolerances": {"count": 1}}, 2500, 30.0
+    )
+    assert study.pricing is not None
+    assert "operation.power_kw" not in {each.path for each in study.pricing.machines.scatters}
+
+
+def test_uncertain_inputs_are_drawn_however_many_corners_they_have() -> None:
+    paths = ("thermal.wall_response", "couplings.0.offset_um.0", "modifications.lead_crowning_um")
+    axes = [{"path": path, "values": [k / 10 for k in range(1, 10)]} for path in paths]
+    assert len(machines(uncertain=axes).axes) == 3
 
 
 def test_no_probability_without_a_limit() -> None:
@@ -153,7 +169,23 @@ def test_equal_flanks_cost_nothing_and_the_error_is_that_of_the_ratio() -> None:
     chances = [norm.cdf((each - 200.0) / 30.0).mean(axis=1) for each in (contact + 5.0, contact)]
     assert warmer["more"] == pytest.approx(chances[0].mean() / chances[1].mean() - 1.0)
     safe = of_class(SCUFFING, values(contact - 400.0), values(contact - 400.0))
-    assert (safe["more"], safe["more_error"]) == (None, None)
+    assert (safe["more"], safe["more_error"], safe["enough"]) == (0.0, 0.0, True)
+
+
+def test_a_class_that_is_not_safe_is_not_enough_although_exact_flanks_are() -> None:
+    contact = np.full((2, 4), 180.0)
+    found = of_class(SCUFFING, values(contact), values(contact - 400.0))
+    assert found["probability"] > 0.2
+    assert (found["more"], found["more_error"], found["enough"]) == (None, None, False)
+
+
+def test_machines_without_solution_count_as_damaged_in_the_price_as_in_its_bounds() -> None:
+    contact = np.array([[150.0, 160.0], [155.0, 145.0]])
+    lost = contact.copy()
+    lost[0, 0] = np.nan
+    chances = [probability(SCUFFING, values(each))["bounds"][1] for each in (lost, contact)]
+    assert of_class(SCUFFING, values(lost), values(contact))["more"] == pytest.approx(chances[0] / chances[1] - 1.0)
+    assert of_class(SCUFFING, values(lost), values(lost))["more"] == 0.0
 
 
 @pytest.mark.parametrize(
@@ -163,14 +195,25 @@ def test_equal_flanks_cost_nothing_and_the_error_is_that_of_the_ratio() -> None:
         ((0.01, 0.2, 0.05), 0.0, (3, False)),  # a class after one that costs more does not count
         ((0.2, 0.3, 0.4), 0.0, (None, False)),
         ((0.01, 0.05, 0.12), 0.02, (4, True)),
-        ((None, None, None), None, (None, False)),
+        ((0.0, 0.0, None), 0.0, (4, False)),
+        ((None, None, None), 0.0, (None, False)),
+        ((0.01, 0.05, 0.4), None, (4, True)),  # a single sample does not know its error
+        ((0.01, 0.055, 0.4), 0.02, (4, True)),  # 2.25 standard errors are not sure with three degrees of freedom
     ],
 )
 def test_the_coarsest_class_costs_less_than_a_tenth(
     more: tuple[float | None, ...], error: float | None, expected: tuple[int | None, bool]
 ) -> None:
-    rows = [{"quality_class": 3 + place, "more": each, "more_error": error} for place, each in enumerate(more)]
-    assert coarsest(rows) == expected
+    rows = [
+        {
+            "quality_class": 3 + place,
+            "more": each,
+            "more_error": error,
+            "enough": each is not None and each < 0.1,
+        }
+        for place, each in enumerate(more)
+    ]
+    assert coarsest(rows, 1 if error is None else 4) == expected
 
 
 def test_a_machine_without_solution_is_counted() -> None:

@@ -7,7 +7,8 @@ from math import exp, sin
 import numpy as np
 import pytest
 
-from app.studies.search import FLAT, PLACE_WITHIN, Crossing, Extreme, Search, found, next_step
+from app.schema.precision import NOISE
+from app.studies.search import PLACE_WITHIN, Crossing, Extreme, Search, found, next_step
 from tests.support.properties import seeds
 
 Curve = Callable[[float], float | None]
@@ -63,6 +64,16 @@ def test_the_extreme_of_brute_force(rng: np.random.Generator) -> None:
     assert sign * nearest[1] == pytest.approx(outputs.min(), abs=1e-5 * np.ptp(outputs))
 
 
+@pytest.mark.parametrize("wanted", [0.5, 2.0, 1000.0, -1.5])
+def test_a_curve_over_decades_has_its_answer_where_it_is(wanted: float) -> None:
+    """The far end of the curve is 1e6: a tolerance of this size would take every point for the answer."""
+    low, high = 1e-6, 10.0
+    search = searched(lambda place: float(np.copysign(1.0, wanted)) / (low + place * (high - low)), wanted)
+    (answer,) = found(search)[0]
+    assert answer.place * (high - low) + low == pytest.approx(1.0 / abs(wanted), abs=2 * PLACE_WITHIN * high)
+    assert answer.until - answer.place <= PLACE_WITHIN
+
+
 def test_two_answers_between_two_points_of_the_scan() -> None:
     search = searched(lambda place: exp(-(((place - 0.52) / 0.03) ** 2)), 0.95)
     low, high = places(search)
@@ -112,7 +123,7 @@ def test_a_range_of_answers() -> None:
 
 
 def test_a_constant_output_needs_no_search() -> None:
-    search = searched(lambda place: 3.0 + 0.1 * FLAT * place, 2.0)
+    search = searched(lambda place: 3.0 + 0.1 * NOISE * place, 2.0)
     assert search.is_constant
     assert len(search.told) == len(SCAN)
 

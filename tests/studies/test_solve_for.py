@@ -77,7 +77,7 @@ def pitted(rng: np.random.Generator) -> Body:
     return {"endpoint": SCUFFING, "request": request, "find": {"path": GRADE}, "output": S_LAMBDA, "equals": 1.2}
 
 
-@seeds(20, 40)
+@seeds(20, 40, default=1)
 def test_which_flow_is_safe_at_the_worst_end(rng: np.random.Generator) -> None:
     changes = {
         "load.power_kw": rng.uniform(9000, 13000),
@@ -91,7 +91,7 @@ def test_which_flow_is_safe_at_the_worst_end(rng: np.random.Generator) -> None:
     confirm(body, lambda outputs: float(rng.uniform(np.nanmin(outputs), np.nanmax(outputs))))
 
 
-@seeds(20, 40)
+@seeds(20, 40, default=1)
 def test_which_grade_for_a_safety_against_micropitting(rng: np.random.Generator) -> None:
     """The permissible film is that of the case at every grade; brute force gives it as a number."""
     body = pitted(rng)
@@ -110,7 +110,7 @@ def test_which_grade_for_a_safety_against_micropitting(rng: np.random.Generator)
     assert end["answers"] == []
 
 
-@seeds(20, 40)
+@seeds(20, 40, default=1)
 def test_which_crowning_for_the_least_pressure(rng: np.random.Generator) -> None:
     changes = {"load.pinion_torque_n_m": rng.uniform(200, 1500), "modifications.helix_slope_um": rng.uniform(-25, 25)}
     request = changed(examples()["xue-pair-1-modified"].request, {"load.power_kw": GONE, **changes})
@@ -125,10 +125,10 @@ def test_which_crowning_for_the_least_pressure(rng: np.random.Generator) -> None
 
 
 def test_a_thin_oil_looks_as_good_as_a_thick_one_only_while_its_stage_is_another_oils() -> None:
-    """By the stage VG 22 reaches what in truth takes VG 150."""
+    """By the stage VG 15 reaches what in truth takes VG 150."""
     body = study_of(PITTED, find={"path": GRADE}, output=S_LAMBDA, equals=1.2)
     by_stage, held = (lines_of(planned({**body, "oil_tests": each})) for each in ("by_stage", "held"))
-    assert [lines[-1]["crossings"][0]["between"] for lines in (by_stage, held)] == [[15, 22], [100, 150]]
+    assert [lines[-1]["crossings"][0]["between"] for lines in (by_stage, held)] == [[10, 15], [100, 150]]
     assert "belongs to the oil of the case" in by_stage[-1]["remarks"][0]
     assert "is held: " in held[-1]["remarks"][0]
 

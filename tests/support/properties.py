@@ -30,14 +30,15 @@ def examples(
     return decorate
 
 
-def seeds(few: int, many: int) -> Callable[[Callable[[np.random.Generator], None]], Test]:
+def seeds(few: int, many: int, default: int | None = None) -> Callable[[Callable[[np.random.Generator], None]], Test]:
     """Return a decorator that turns a property of random draws into a test with many seeds.
 
     If the model refuses a draw or has no solution, the draw is ignored. At most 20 % of the draws may be ignored.
+    `default` is the number of seeds by default, if draws take so long that it shall be less than three.
     """
 
     def decorate(holds: Callable[[np.random.Generator], None]) -> Test:
-        @_on(few, many)
+        @_on(few, many, default)
         def test(count: int) -> None:
             refused = 0
             for seed in range(count):
@@ -56,10 +57,10 @@ def seeds(few: int, many: int) -> Callable[[Callable[[np.random.Generator], None
     return decorate
 
 
-def _on(few: int, many: int) -> pytest.MarkDecorator:
-    default = pytest.param(min(few, max(3, few // 5)), id="default")
+def _on(few: int, many: int, default: int | None = None) -> pytest.MarkDecorator:
+    usual = pytest.param(default or min(few, max(3, few // 5)), id="default")
     marked = [pytest.param(few, id="few", marks=pytest.mark.ci), pytest.param(many, id="many", marks=pytest.mark.slow)]
-    return pytest.mark.parametrize("count", [default, *marked])
+    return pytest.mark.parametrize("count", [usual, *marked])
 
 
 def first(count: int, values: Iterable[Any]) -> list[Any]:

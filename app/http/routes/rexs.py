@@ -206,7 +206,7 @@ def _kept(http: Request, sha256: str) -> tuple[str, bytes] | None:
     kept: bytes | None = http.app.state.answers.get(_key("unit", sha256))
     if kept is None:
         return None
-    name, _, unit = kept.partition(b"\0")
+    name, _, unit = kept.rpartition(b"\0")  # JSON contains no NUL, but a name may
     return name.decode(), unit
 
 

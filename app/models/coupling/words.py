@@ -33,7 +33,7 @@ component(
     "CouplingLubrication",
     hertz_pressure=View(limit=2000.0, bound="upper"),
     contact_overlap=View(limit=1.0, bound="upper"),
-    load_capacity_coefficient=View(headline=2, limit=FULL_FILM, bound="lower", verdict=".regime.name"),
+    load_capacity_coefficient=View(headline=2, limit=FULL_FILM, bound="lower"),
 )
 component(
     results.AxialThrust,
@@ -84,14 +84,22 @@ RECOMMENDATION = group(
     crowning_radius=View(headline=1),
     crowning_drop=View(headline=2),
     unloading_margin=View(headline=4, limit=1.0, bound="lower"),
-    min_load_capacity_coefficient=View(headline=5),
+    min_load_capacity_coefficient=View(headline=4),
 )
 
 
 def verdicts(response: Any) -> dict[str, Verdict]:
-    """Judge the design thrust and the permissible misalignment."""
-    thrust, tilt = "axial_thrust.design_force_n", "limits.allowable_misalignment_deg"
-    return {thrust: _thrust(response), tilt: _misalignment(response)}
+    """Judge the design thrust, the film and the permissible misalignment."""
+    judged = {_THRUST: _thrust(response), "limits.allowable_misalignment_deg": _misalignment(response)}
+    film = response.lubrication
+    if film.load_capacity_coefficient is not None:
+        judged[_FILM] = Verdict(_level_of_film(film), f"kind of lubrication: {film.regime.name}")
+    return judged
+
+
+def _level_of_film(film: Any) -> str:
+    """Return the level of a film: teeth are permitted to rub, so that a film that does not carry is not bad."""
+    return "good" if film.load_capacity_coefficient >= FULL_FILM else "near"
 
 
 def _thrust(response: Any) -> Verdict:
@@ -139,7 +147,7 @@ def verdict(response: Any) -> Verdict:
     if film.load_capacity_coefficient is None:
         return Verdict("plain", "No load: no film, no thrust and no friction are stated.")
     least = f"{film.regime.name}, Tr {number(film.load_capacity_coefficient)}"
-    if film.load_capacity_coefficient < FULL_FILM:
+    if _level_of_film(film) != "good":
         return Verdict("near", f"Permissible without full film: {slide}; {least}.")
     return Verdict("near" if sliding > NEAR_LIMIT else "good", f"Permissible: {slide}; {least}.")
 
@@ -242,6 +250,7 @@ WORDS = Words(
         "sleeve_position": (_FILM, _THRUST),
         "sleeve_not_centred": (_FILM, _THRUST),
     },
+    names=frozenset({"edge_contact", "wide_contact"}),
 )
 ORBIT_WORDS = Words(verdict=orbit_verdict)
 RECOMMENDATION_WORDS = Words(
@@ -249,5 +258,6 @@ RECOMMENDATION_WORDS = Words(
     verdicts=crowning_verdicts,
     conclusion=crowning_conclusion,
     touches={"infeasible": ()},
+    names=frozenset({"infeasible"}),
     hands_on={"/v1/coupling": FOUND, "/v1/coupling/sleeve-orbit": FOUND},
 )

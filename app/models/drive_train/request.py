@@ -235,7 +235,7 @@ class UnitShaft(Section, of=si.Shaft, without=("ultimate_thrust",)):
         `section_diameter` if a section has no diameter and is not under the teeth, or reaches from helix to helix.
         """
         teeth = gears.pinion if name == "pinion_shaft" else gears.wheel
-        starts = {face_start, face_start + gears.total_width - gears.face_width}
+        starts = [face_start + k * (gears.total_width - gears.face_width) for k in range(gears.helices)]
         helices = [(start, start + gears.face_width) for start in starts]
         position = UNITS["mm"].to_si(self.start_mm)
         for k, cylinder in enumerate(self.sections):

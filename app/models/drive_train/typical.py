@@ -64,7 +64,8 @@ RULES = {
     ),
     "end": Rule(
         "shaft end",
-        f"{SHAFT_END:g} journal diameters thick; torque enters or leaves one journal diameter from the bearing",
+        f"the larger of {SHAFT_END:g} journal diameters and torsion at {SHEAR:g} N/mm², at most the journal; torque "
+        "enters or leaves one journal diameter from the bearing",
         "rule of thumb",
     ),
     "place": Rule("positions", "the pinion's shaft begins at Z = 0; both shafts share the face", "choice of the datum"),
@@ -105,8 +106,15 @@ def _tooth_force(gears: GearPairInputs, torque: float) -> float:
 
 def _rounded(length: float) -> float:
     """Round a length up to a multiple of the step for its size [mm]."""
-    step = COARSE if length > FROM else FINE
-    return step * -floor(-length / step)
+    return _step(length) * -floor(-length / _step(length))
+
+
+def _rounded_down(length: float) -> float:
+    return _step(length) * floor(length / _step(length))
+
+
+def _step(length: float) -> float:
+    return COARSE if length > FROM else FINE
 
 
 class _Shaft(NamedTuple):
@@ -118,6 +126,7 @@ class _Shaft(NamedTuple):
     shoulder: float
     root: float
     end: float  # length of the shaft end
+    end_diameter: float
 
     @classmethod
     def of(cls, gears: GearPairInputs, teeth: GearTeeth, torque: float, force: float) -> "_Shaft":
@@ -130,15 +139,17 @@ class _Shaft(NamedTuple):
         wanted = _rounded(max(torsion, pressed, LEAST_SHARE * reference, LEAST))
         journal = min(wanted, max(float(floor(most)), LEAST))
         needed = force / (2 * PRESSURE * journal)
-        width = _rounded(min(max(WIDTH * journal, needed), MOST_WIDTH * journal))
+        width = min(_rounded(max(WIDTH * journal, needed)), _rounded_down(MOST_WIDTH * journal))
         shoulder = max(journal, min(_rounded(SHOULDER * journal), float(floor(root))))
-        return cls(journal, width, _rounded(max(SIDE * journal, LEAST_SIDE)), shoulder, root, _rounded(journal))
+        side, end = _rounded(max(SIDE * journal, LEAST_SIDE)), _rounded(journal)
+        end_diameter = min(_rounded(max(SHAFT_END * journal, torsion, LEAST)), journal)
+        return cls(journal, width, side, shoulder, root, end, end_diameter)
 
     def fields(
         self, name: str, gears: GearPairInputs, start: float, face_start: float, face: float, *, driven: bool
     ) -> dict[str, Value]:
         """Return the fields of the shaft; `driven`: from the end of lowest Z, else it drives from the other end."""
-        end = (self.end, max(_rounded(SHAFT_END * self.journal), LEAST), "end")
+        end = (self.end, self.end_diameter, "end")
         bearing, shoulder = (self.width, self.journal, "width"), (self.side, self.shoulder, "shoulder")
         teeth: list[tuple[float, float | None, str]] = [(1e3 * gears.face_width, None, "teeth")]
         if gears.gap_width:

@@ -6,7 +6,7 @@ from typing import Any
 from app.figures.wording import number, percent
 from app.models.card import FileResult, FromFile, ScuffingPaths, Verdict, Words
 from app.models.coupling.words import ProportionsInForce
-from app.models.load_distribution.words import MESH_DERIVED, carrying
+from app.models.load_distribution.words import MESH_DERIVED, carrying, unloaded
 from app.models.scuffing.words import (
     BULK_BY,
     LOAD_RESULTS,
@@ -19,6 +19,7 @@ from app.models.scuffing.words import (
     risk_of_scuffing,
     tile_of_scuffing,
     with_micropitting,
+    without_risk,
 )
 from app.schema.answers import Response, component, group, named
 from app.schema.quantities import View
@@ -54,7 +55,7 @@ component(
     blok_flank=View(limit=1.0, bound="lower"),
     thermal_ehl_feature=View(limit=1.0, bound="lower"),
     thermal_ehl_profile=View(limit=1.0, bound="lower"),
-    minimum=View(headline=1, limit=1.0, bound="lower", band="heat.band.safety"),
+    minimum=View(headline=1, limit=1.0, bound="lower", needs="temperatures.scuffing_c", band="heat.band.safety"),
 )
 component(derived.DerivedCoupling, "CouplingInForce", fields={"coupling": ProportionsInForce})
 component(results.Parts, "MisalignmentParts", unit="um")
@@ -93,19 +94,26 @@ WARM_UP = group(
 
 def verdict(response: Any) -> Verdict:
     """Judge scuffing, and micropitting where it is asked for; a double-helical unit by the helix that decides."""
-    least, hottest = response.safety.minimum, response.flash.contact_max_c
+    if idle := unloaded(response):
+        return idle
+    least, bulk = _least(response), response.derived.temperatures.bulk_c
     if least is not None:
         first = risk_of_scuffing(least, band_of(response))
     else:
-        reached = f" The contact reaches {number(hottest, '°C')}." if hottest is not None else ""
-        first = Verdict("plain", f"No safety against scuffing is stated.{reached}")
+        first = without_risk(response, bulk, response.flash.contact_max_c)
     return with_micropitting(first, response)
+
+
+def _least(response: Any) -> float | None:
+    """Return the least safety factor against scuffing; None if the answer has none."""
+    least: float | None = response.safety.minimum if response.safety is not None else None
+    return least
 
 
 def verdicts(response: Any) -> dict[str, Verdict]:
     """Judge the least safety factor; say what carries, and how the bulk temperature came about."""
     return {
-        **tile_of_scuffing(_SAFETY, response.safety.minimum, band_of(response)),
+        **tile_of_scuffing(_SAFETY, _least(response), band_of(response)),
         _LOAD: Verdict("plain", carrying(response.load)),
         _BULK: Verdict("plain", BULK_BY[response.derived.temperatures.bulk_method]),
     }

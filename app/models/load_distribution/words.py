@@ -73,11 +73,17 @@ def verdicts(response: Any) -> dict[str, Verdict]:
     return {"load.face_load_factor": Verdict("plain", carrying(response.load))}
 
 
+def unloaded(response: Any) -> Verdict | None:
+    """Say of flanks without load that nothing presses them together; None if there is a load."""
+    without = any(warning.code == "no_load" for warning in response.warnings)
+    return Verdict("plain", "No load: nothing presses the flanks together.") if without else None
+
+
 def verdict(response: Any) -> Verdict:
     """Say how much of the contact carries load, how evenly, and with which pressure."""
     load, pressure = response.load, response.pressure.max_mpa
-    if load.normal_force_n == 0.0:
-        return Verdict("plain", "No load: nothing presses the flanks together.")
+    if idle := unloaded(response):
+        return idle
     said = carrying(load)
     even = f"{said[0].upper()}{said[1:]}: K_Hβ {number(load.face_load_factor)}"
     return Verdict("plain", f"{even}, {number(pressure, 'MPa')} at most." if pressure is not None else f"{even}.")

@@ -12,6 +12,7 @@ from app.models.load_distribution.words import (
     SCUFFING_DERIVED,
     carrying,
     of_helix,
+    unloaded,
 )
 from app.schema.answers import Response, component, group, named
 from app.schema.quantities import View
@@ -128,6 +129,21 @@ def tile_of_scuffing(path: str, safety: float | None, band: list[float] | None) 
     return {path: Verdict(LEVEL_OF_RISK[risk], text)}
 
 
+def without_risk(response: Any, bulk: float | None, hottest: float | None) -> Verdict:
+    """Say why an answer has no safety factor, in the order in which inputs are missing: the first sentence."""
+    codes, reached = {warning.code for warning in response.warnings}, ""
+    if bulk is None:
+        why = "no oil" if "no_oil" in codes else "no bulk temperature"
+    elif response.safety is None:
+        why = "no scuffing temperature"
+        reached = f" The contact reaches {number(hottest, '°C')}." if hottest is not None else ""
+    elif hottest is None or "unsolved_points" in codes:
+        why = "the contact temperature is not known everywhere"
+    else:
+        why = "no contact is hotter than the oil"
+    return Verdict("plain", f"No verdict: {why}.{reached}")
+
+
 def band_of(response: Any) -> list[float] | None:
     """Return the ends of the safety factor that the heat balance leaves open; None if there is no band."""
     band = response.heat.band if response.heat is not None else None
@@ -147,16 +163,21 @@ def risk_of_micropitting(response: Any) -> Verdict | None:
 
 def verdict(response: Any) -> Verdict:
     """Judge scuffing, and micropitting where it is asked for; the worse of both gives the level."""
-    safety, hottest = response.safety, response.contact_temperature
-    if safety is not None and safety.blok_factor is not None:
-        first = risk_of_scuffing(safety.blok_factor, band_of(response))
-    elif safety is not None:
-        first = Verdict("plain", "No risk of scuffing stated: no contact is hotter than the oil.")
+    if idle := unloaded(response):
+        return idle
+    factor, contact = _factor(response), response.contact_temperature
+    if factor is not None:
+        first = risk_of_scuffing(factor, band_of(response))
     else:
-        hot = number(hottest.blok_max_c, "°C") if hottest is not None and hottest.blok_max_c is not None else ""
-        reached = f" The contact reaches {hot}." if hot else ""
-        first = Verdict("plain", f"No verdict without a scuffing temperature.{reached}")
+        bulk, hottest = (None, None) if contact is None else (contact.bulk_c, contact.blok_max_c)
+        first = without_risk(response, bulk, hottest)
     return with_micropitting(first, response)
+
+
+def _factor(response: Any) -> float | None:
+    """Return the safety factor against scuffing; None if the answer has none."""
+    factor: float | None = response.safety.blok_factor if response.safety is not None else None
+    return factor
 
 
 def with_micropitting(first: Verdict, response: Any) -> Verdict:
@@ -170,9 +191,8 @@ def with_micropitting(first: Verdict, response: Any) -> Verdict:
 
 def verdicts(response: Any) -> dict[str, Verdict]:
     """Judge the safety factor; say what carries, and how the bulk temperature came about."""
-    factor = response.safety.blok_factor if response.safety is not None else None
     return {
-        **tile_of_scuffing(_SAFETY, factor, band_of(response)),
+        **tile_of_scuffing(_SAFETY, _factor(response), band_of(response)),
         _LOAD: Verdict("plain", carrying(response.load)),
         _BULK: Verdict("plain", BULK_BY[response.derived.bulk_method]),
     }

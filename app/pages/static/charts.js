@@ -40,8 +40,7 @@ function prepareChart(plot) {
     plot.removeEventListener("pointerenter", wake);
     plot.removeEventListener("focus", wake);
     const found = await values();
-    const panels = isNarrow() ? found.narrow : found.panels;
-    if (panels.length) follow(plot, panels);
+    if (found.panels.length) follow(plot, found);
     plot.dispatchEvent(new PointerEvent("pointermove", event));
   };
   plot.addEventListener("pointerenter", wake);
@@ -73,7 +72,8 @@ function fillTable(details, { header, lines, more }) {
   details.querySelector(".scroll").replaceChildren(table, note);
 }
 
-function follow(plot, panels) {
+function follow(plot, found) {
+  const shown = () => (isNarrow() ? found.narrow : found.panels);  // asked anew each time, for a phone is turned
   const reading = plot.parentElement.querySelector(".reading");
   const cursor = document.createElement("span");
   cursor.className = "cursor";
@@ -82,7 +82,7 @@ function follow(plot, panels) {
   let place = { panel: 0, index: -1 };
   const show = (panel, index) => {
     place = { panel, index };
-    const { box, range, name, unit, curves } = panels[panel];
+    const { box, range, name, unit, curves } = shown()[panel];
     const at = curves[0].x[index];
     const image = plot.querySelector("img");
     const share = range[2] ? Math.log(at / range[0]) / Math.log(range[1] / range[0]) : (at - range[0]) / (range[1] - range[0]);
@@ -97,6 +97,7 @@ function follow(plot, panels) {
     const image = plot.querySelector("img").getBoundingClientRect();
     const x = (event.clientX - image.left) / image.width;
     const y = (event.clientY - image.top) / image.height;
+    const panels = shown();
     const panel = panels.findIndex(({ box }) => x >= box[0] && x <= box[0] + box[2] && y >= box[1] - 0.05 && y <= box[1] + box[3] + 0.05);
     if (panel < 0) return;
     const { box, range, curves } = panels[panel];
@@ -108,6 +109,7 @@ function follow(plot, panels) {
     const step = { ArrowRight: [0, 1], ArrowLeft: [0, -1], ArrowDown: [1, 0], ArrowUp: [-1, 0] }[event.key];
     if (!step) return;
     event.preventDefault();
+    const panels = shown();
     const panel = Math.min(Math.max(place.panel + step[0], 0), panels.length - 1);
     const last = panels[panel].curves[0].x.length - 1;
     show(panel, Math.min(Math.max(place.index + step[1], 0), last));

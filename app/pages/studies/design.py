@@ -69,7 +69,7 @@ DRAWN = Control(
     "tolerances.count",
     PAIRS,
     label="machines drawn",
-    options=tuple(("" if count == PAIRS else str(count), str(PAIR * SAMPLES * count)) for count in (PAIRS, 16, 32, 64)),
+    options=tuple(("" if count == PAIRS else str(count), str(PAIR * SAMPLES * count)) for count in (PAIRS, 16, 32)),
 )
 
 
@@ -82,7 +82,7 @@ class DesignPage(UnitPage):
         "The search varies helix slope, crowning and relief; of double-helical gears, slope and crowning of each "
         "helix. It starts from the correction of the case, and judges each one at its worst corner of the uncertain "
         "inputs, or by the probability of damage. Machines are then drawn for the correction found: uncertain inputs, "
-        "cooling, friction, and the flanks by quality class."
+        "load, what the models do not know well, and the flanks by quality class."
     )
     figures = ("price", "dominating", "lead", LOAD_ALONE.name, GAP.name, "search")
     grows = True

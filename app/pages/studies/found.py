@@ -5,9 +5,11 @@ from typing import Any
 
 from app.figures.wording import listed, number
 from app.schema.fields import Leaf
+from app.studies.fields import whole_range
 from app.studies.runner import Line
 
 DIGITS = 4  # significant digits of an answer; the search finds more, but no input is known better
+FURTHER = 4.0  # how much longer the range is made to search on, in ranges; above zero the end is multiplied by it
 ENDS = {"min": "the lower end of the range", "max": "the upper end of the range"}
 
 
@@ -47,6 +49,16 @@ class Found:
         """On which side of a limit the output is safe: -1 below, 1 above, 0 if it has no limit."""
         return {"lower": 1, "upper": -1}.get(self.output.view.bound or "", 0)
 
+    def beyond(self, end: str) -> tuple[float, float] | None:
+        """Return a range beyond an end of the one that was searched; None if the field permits nothing there."""
+        low, high = self.header["find"]["min"], self.header["find"]["max"]
+        least, most = whole_range(self.field)
+        if end == "max":
+            ends = high, min(FURTHER * high if low >= 0.0 else high + FURTHER * (high - low), most)
+        else:
+            ends = max(low / FURTHER if least >= 0.0 else low - FURTHER * (high - low), least), low
+        return ends if ends[0] < ends[1] and not self.field.options else None
+
     def answer(self) -> str:
         """Return the answer to the question of the search."""
         nearest, out = self.end["nearest"], self.output.title
@@ -63,7 +75,9 @@ class Found:
 
     def _extreme(self) -> str:
         (best,) = self.end["answers"]
-        ends = f", {ENDS[best['end']]}: it may be {self._better()} beyond" if best["end"] else ""
+        ends = f", {ENDS[best['end']]}" if best["end"] else ""
+        if best["end"] and self.beyond(best["end"]):
+            ends += f": it may be {self._better()} beyond"
         return _sentence(
             f"{self.named(best['at'])}: the {self.output.title} is {self.header['extreme']} there, "
             f"{self.reached(best['out'])}{ends}."
@@ -119,7 +133,7 @@ class Found:
     def _is_safe_above(self, crossing: Line) -> bool:
         """Return whether the output is on its safe side above a crossing, and not below it."""
         before, after = crossing["out"]
-        return (after > before) == (self.keeps > 0)
+        return bool(after > before) == (self.keeps > 0)
 
     def to_open(self) -> list[Any]:
         """Return the values of the field whose cases are worth opening: the answers, or those beside them in a list."""

@@ -271,7 +271,7 @@ class StudyPage(ABC):
     def other(self, kind: StudyLink, **changes: str) -> str:
         """Return the address of a study of this case, with the controls of this page and some changes."""
         views = {name: text for name, text in self.views.items() if name in kind.controls | {"show", "theme"}}
-        return link(f"{self.asked.path}/{kind.name}", self.asked.pairs, **(views | changes))
+        return link(f"{self.asked.path}/{kind.name}", self.asked.pairs, **(views | changes), **self.asked.carried)
 
     def oil_links(self, *, held: bool) -> tuple[Link, ...]:
         """Return links to what a study over the oil can do about the tests of the oil, other than what it does."""
@@ -400,7 +400,8 @@ def titled(leaf: Leaf) -> str:
 def drawn(page: StudyPage, lines: list[Line], progress: Progress | None = None) -> bytes:
     """Return the result of a study as HTML with figures, tables and links.
 
-    `progress` is given while the study runs. If the study ended early, the HTML begins with the reason.
+    `progress` is given while the study runs. If the study ended early, the HTML begins with the reason; without a
+    `progress`, it names the number of points that were planned.
     """
     *before, last = lines or [{"type": "progress"}]
     ended_early = last["type"] == "error"
@@ -416,7 +417,7 @@ def drawn(page: StudyPage, lines: list[Line], progress: Progress | None = None) 
         page=page,
         found=result,
         problem=last["message"] if ended_early else "",
-        progress=Progress(last["done"], page.study.total) if ended_early else progress,
+        progress=progress or (Progress(last["done"], page.study.total) if ended_early else None),
         charts=charts,
     ).encode()
 

@@ -9,9 +9,10 @@ from app.figures.studies import dominating, price
 from app.figures.wording import percent
 from app.pages.studies.page import Number, Table
 from app.pages.typesetting import lasting, shown
-from app.studies.price import MICROPITTING, MORE, SCUFFING
+from app.studies.price import MICROPITTING, SCUFFING
 from app.studies.requests import Overrides
 from app.studies.runner import LONG_S, Line
+from app.studies.uncertainty import quantities_of
 
 NAMED = 8  # inputs in the table of what dominates
 NO_PRICE = (
@@ -31,18 +32,22 @@ def price_verdict(found: Line) -> str:
     """Say how exactly it must be ground: verdict, number, reason."""
     rows = {row["quality_class"]: row for row in found["classes"]}
     exact, coarsest = chance_text(found["exact"]), found["coarsest_class"]
-    if any(row["more"] is None for row in rows.values()):
-        return f"Any of these classes is enough: even with exact flanks damage is {exact} probable."
+    if coarsest == max(rows) and not any(row["more"] for row in rows.values()):
+        chance = chance_text(rows[coarsest])
+        return f"Any of these classes is enough: even with class {coarsest} damage is {chance} probable."
     if coarsest is None:
         finest = min(rows)
-        return (
-            f"Not even class {finest} is enough: damage is {chance_text(rows[finest])} probable, "
-            f"{percent(rows[finest]['more'])} more than with exact flanks ({exact})."
+        more = rows[finest]["more"]
+        against = (
+            f"with exact flanks {exact}" if more is None else f"{percent(more)} more than with exact flanks ({exact})"
         )
+        return f"Not even class {finest} is enough: damage is {chance_text(rows[finest])} probable, {against}."
     own = rows[coarsest]
     width = shown(own["tolerances"]["helix_slope_um"], 3)
-    coarser = [row for name, row in rows.items() if name > coarsest]
-    rest = f"; class {coarser[0]['quality_class']} costs {percent(coarser[0]['more'])} more" if coarser else ""
+    rest = ""
+    for row in [row for name, row in rows.items() if name > coarsest][:1]:
+        costs = f"makes it {chance_text(row)}" if row["more"] is None else f"costs {percent(row['more'])} more"
+        rest = f"; class {row['quality_class']} {costs}"
     return (
         f"Class {coarsest} is exact enough: damage is {chance_text(own)} probable, with exact flanks {exact}, because "
         f"±{width} µm of helix slope cost less than a tenth{rest}."
@@ -74,9 +79,10 @@ def price_tables(found: Line) -> tuple[Table, ...]:
     heads = ("helix slope, ± µm", "profile slope, ± µm", *(f"probability of {kind}" for kind in kinds), "90 % interval")
     note = (
         f"{found['machines']} machines each, the same ones for every class; the interval is the error of sampling "
-        "alone. ± are three standard deviations of both gears together. Drawn are also the uncertain inputs of the "
-        "unit, cooling and friction."
+        "alone. ± are three standard deviations of both gears together."
     )
+    drawn = _drawn(found)
+    note += f" Drawn are also {', '.join(drawn)}." if drawn else ""
     note += " The more probable damage counts." if both else ""
     head = ("quality class", *map(Number, (*heads, "more than exact")))
     classes = Table("How exactly to grind", head, rows, note)
@@ -91,6 +97,16 @@ def price_tables(found: Line) -> tuple[Table, ...]:
     return classes, Table(title, ("input", Number("share")), shares[:NAMED], note)
 
 
+def _drawn(found: Line) -> list[str]:
+    """Name what differs between the machines beside the slopes of their flanks."""
+    reasons = {line["field"]: line["reason"] for line in found["assumptions"]}
+    slopes = {f"modifications.{name}" for row in found["classes"] for name in row["tolerances"]}
+    others = [line for line in found["influences"] if not slopes.intersection(line["paths"])]
+    inputs = [line["name"] for line in others if reasons.keys().isdisjoint(line["paths"])]
+    models = quantities_of(reasons[path] for line in others for path in line["paths"] if path in reasons)
+    return [*inputs, *(name for name in models if name not in inputs)]
+
+
 def _chances(row: Line, kinds: Sequence[str]) -> tuple[str, ...]:
     interval = row["interval"]
     said = f"{percent(interval[0])} to {percent(interval[1])}" if interval else "–"
@@ -100,7 +116,7 @@ def _chances(row: Line, kinds: Sequence[str]) -> tuple[str, ...]:
 def _more(row: Line) -> str:
     """Return by how much damage is more probable than with exact flanks, with its standard error."""
     if row["more"] is None:
-        return "–"
+        return "exact is safe"
     error = "" if row["more_error"] is None else f" ± {percent(row['more_error'])}"
     return f"{percent(row['more'])}{error}"
 
@@ -109,7 +125,7 @@ def price_figures(found: Line) -> dict[str, Figure]:
     """Return the figures of the probability by class, and of what it depends on."""
     rows = []
     for name, row in (("exact", found["exact"]), *((f"class {row['quality_class']}", row) for row in found["classes"])):
-        enough = name == "exact" or (row["more"] is not None and row["more"] < MORE)
+        enough = name == "exact" or row["enough"]
         bounds = None if row["interval"] is None else (100.0 * row["interval"][0], 100.0 * row["interval"][1])
         rows.append(Row(name, 100.0 * row["bounds"][1], Hue.BLUE if enough else Hue.VERMILLION, bounds))
     coarsest = found["coarsest_class"]

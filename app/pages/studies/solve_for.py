@@ -10,6 +10,7 @@ from app.figures.solving import oils, sought
 from app.figures.studies import Coordinate, Grid
 from app.figures.units import axis_of
 from app.figures.wording import listed, number
+from app.pages.charts import for_phones
 from app.pages.form import FieldView
 from app.pages.results import verdict_lines
 from app.pages.studies.controls import Choice, Control, field_choices
@@ -21,13 +22,12 @@ from app.pages.typed import text_of
 from app.pages.typesetting import shown
 from app.schema.fields import Leaf, leaf_at, value_at
 from app.studies.fields import is_plain_number
-from app.studies.kinds.solve_for import FACTOR, SolveFor, whole_range
+from app.studies.kinds.solve_for import FACTOR, SolveFor
 from app.studies.oil_tests import NAME
 from app.studies.runner import Line
 
 MOST_LINKS = 4  # largest number of links to cases above the result
 COUNT = 21  # default number of points of the scan
-FURTHER = 4.0  # how much longer the range is made to search on, in ranges; above zero the end is multiplied by it
 GOALS = (("", "equal to"), ("least", "least"), ("greatest", "greatest"))
 FIELD = Control("x", "find.path", None, str)
 FROM, TO = Control("x.from", "find.min", label="from"), Control("x.to", "find.max", label="to")
@@ -154,25 +154,21 @@ class SolveForPage(StudyPage):
         nearest = end["nearest"]
         is_best_at_end = len(end["answers"]) == 1 and found.header["extreme"] and not self.study.oils
         if nearest and nearest["end"] and not end["constant"] and (not links or is_best_at_end):
-            links += self._further(nearest["end"])
+            links += self._further(found.beyond(nearest["end"]))
         return links
 
-    def _further(self, end: str) -> list[Link]:
-        """Return a link that searches beyond an end of the range, unless the field permits nothing beyond it."""
-        low, high = self.study.track.low or 0.0, self.study.track.high or 0.0
-        least, most = whole_range(self.leaf)
-        if end == "max":
-            ends = high, min(FURTHER * high if low >= 0.0 else high + FURTHER * (high - low), most)
-        else:
-            ends = max(low / FURTHER if least >= 0.0 else low - FURTHER * (high - low), least), low
-        if not ends[0] < ends[1] or self.leaf.options:
+    def _further(self, ends: tuple[float, float] | None) -> list[Link]:
+        """Return a link that searches in a range beyond an end, unless there is no such range."""
+        if ends is None:
             return []
         first, last = (float(f"{each:.4g}") for each in ends)
         address = self.other(FIND, **{FROM.name: text_of(first), TO.name: text_of(last), SCALE.name: ""})
         return [Link(f"Search from {number(first)} to {number(last, self.leaf.unit)}", address)]
 
     def _figures(self, points: list[Line], end: Line | None) -> dict[str, Figure]:
-        """Return the curve of the points so far with the answers, or the bars of the oils."""
+        """Return the curve of the points so far with the answers, or the bars of the oils; nothing without points."""
+        if not points:
+            return {}
         output, wanted = axis_of(self.output), self.study.body.equals
         if self.study.oils:
             named = [(line["at"], line["out"][0]) for line in points if is_plain_number(line["out"][0])]
@@ -228,7 +224,8 @@ class SolveForPage(StudyPage):
         from app.figures.drawing.image import places as places_of  # noqa: PLC0415  only workers draw
 
         ordered = sorted(points, key=lambda line: float(line["at"]))
-        (place,) = places_of(self._figures(points, None)["curve"])
+        figure = self._figures(points, None)["curve"]
+        (place,), (narrow,) = places_of(figure), places_of(for_phones(figure))
         leaf = self.leaf
         content = {
             "address": self.asked.root + self.address(self.study.overrides(ordered[0]["at"])),
@@ -240,6 +237,7 @@ class SolveForPage(StudyPage):
             "unit": self.output.unit or "",
             "map": False,
             "box": place.box,
+            "narrow": narrow.box,
             "ranges": [place.x, place.y],
         }
         return json.dumps(content)

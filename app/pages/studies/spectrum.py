@@ -15,7 +15,7 @@ from app.figures.data import Figure, NoFigure
 from app.figures.spectrum import Limited, LimitedCase, chance_text, chances, deciding, losses, overlap, sentence
 from app.figures.units import axis_of
 from app.figures.wording import difference_unit, number, percent
-from app.pages.cases import FILE_NAMES, REFUSED
+from app.pages.cases import REFUSED
 from app.pages.form import FieldView
 from app.pages.query import Pairs, link, pairs_of
 from app.pages.studies.controls import Control, field_choices, texts_of
@@ -33,7 +33,7 @@ from app.studies.points import SOLVED, BaseRequest
 from app.studies.runner import Line
 from app.studies.statistics import RELATIVE_DEVIATION
 from app.studies.tolerances import class_remarks
-from app.studies.uncertainty import model_distributions
+from app.studies.uncertainty import model_distributions, quantities_of
 
 REPLICATES = 8  # number of independent samples on the page; the scatter of their means gives the error of a mean
 MACHINES = (("", "256"), ("64", "64"), ("1024", "1024"), ("4096", "4096"))
@@ -43,10 +43,7 @@ LAWS = (
 )
 LISTED = "listed"
 MODELS = (("", "not drawn"), ("true", "drawn"))
-NOT_DRAWN = (
-    "how well the models are known (cooling of the teeth, friction, bulk temperature) is not in these numbers; one "
-    "click draws it too"
-)
+NOT_DRAWN = "how well the models are known ({}) is not in these numbers; one click draws it too"
 SIDES = (("", "by the output"), ("above", "above is bad"), ("below", "below is bad"))
 MOST_BARS = 40  # number of bars that fit side by side on a page
 
@@ -323,28 +320,31 @@ class SpectrumPage(StudyPage):
         )
         notes += class_remarks(end["assumptions"])
         leads = [Link("Report with this spectrum", self.view("/report"))]
-        if limit is not None and self._could_draw_models:
-            notes.append(NOT_DRAWN)
-        if limit is not None and self._could_draw_models and not self.too_long:
+        could_draw = [] if limit is None else self._could_draw
+        if could_draw:
+            notes.append(NOT_DRAWN.format(", ".join(could_draw)))
+        if could_draw and not self.too_long:
             leads.append(Link("Draw the uncertainty of the models too", self._with_models))
         remarks = tuple(f"{note[0].upper()}{note[1:]}." for note in notes)
         return Result(progress, figures | self._losses(end), tables, remarks, tuple(leads), answer=answer)
 
     @property
-    def _could_draw_models(self) -> bool:
-        """Whether something that the models do not know well is neither drawn nor set by the cases."""
+    def _could_draw(self) -> list[str]:
+        """Name what the models do not know well and what is neither drawn nor set by the cases."""
         base = BaseRequest(self.calculation, self.study.body.request)
         taken = {leaf.path for leaf in self.study.scattering} | {path for case in self.study.cases for path in case.set}
         try:
-            return not model_distributions(base.checked(self.study.overrides(0))).keys() <= taken
+            unknown = model_distributions(base.checked(self.study.overrides(0)))
         except REFUSED:
-            return False
+            return []
+        return quantities_of(reason for path, (_, reason) in unknown.items() if path not in taken)
 
     @property
     def _with_models(self) -> str:
         """The address of this page with the uncertainty of the models drawn."""
-        views = {name: text for name, text in self.views.items() if name in {*SPECTRUM.controls, "show", *FILE_NAMES}}
-        return link(f"{self.asked.path}/{SPECTRUM.name}", self.asked.pairs, **views | {"models": "true"})
+        views = {name: text for name, text in self.views.items() if name in {*SPECTRUM.controls, "show"}}
+        address = f"{self.asked.path}/{SPECTRUM.name}"
+        return link(address, self.asked.pairs, **views, models="true", **self.asked.carried)
 
     def _limited(self, end: Line, limit: Line) -> Limited:
         """Return the data that the figures about a limit show."""

@@ -35,7 +35,8 @@ async def pieces(pool: Callable[[], Pool], opened: Opened, lines: Lines, clock: 
             if clock.done and clock.elapsed_s >= due and not has_ended:
                 yield await _part(pool(), drawn, opened.page, received, clock.progress)
                 due = clock.elapsed_s + min(max(FRAME_SHARE * clock.elapsed_s, FIRST_FRAME_S), LONGEST_PAUSE_S)
-    yield await _part(pool(), drawn, opened.page, received)
+    ended_early = clock.progress if received and received[-1]["type"] == "error" else None
+    yield await _part(pool(), drawn, opened.page, received, ended_early)
     yield opened.tail
 
 
@@ -53,7 +54,7 @@ async def report_pieces(
                 due = clock.elapsed_s + FIRST_FRAME_S
     last = received[-1]
     if last["type"] == "error":
-        ended = f"The study ended after {last['done']} of {page.study.total} points. {last['message']}"
+        ended = f"The study ended after {last['done']} of {clock.total} points. {last['message']}"
         yield report_progress(page, clock.progress, problem=ended)
         return
     yield report_progress(page, clock.progress, has_ended=True)

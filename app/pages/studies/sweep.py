@@ -7,7 +7,7 @@ import json
 from collections import Counter
 from collections.abc import Sequence
 from functools import cached_property
-from math import ceil, floor, inf, isfinite, nan
+from math import ceil, floor, isfinite, nan
 from typing import Any
 
 import numpy as np
@@ -25,7 +25,7 @@ from app.pages.study_kinds import ALSO, AXES, OIL_TESTS, VARY
 from app.pages.study_links import Starter, StudyExample, studies_of, studies_of_case
 from app.pages.typesetting import shown, words
 from app.schema.fields import Leaf, leaf_at, value_at
-from app.studies.fields import is_plain_number, scalar_at
+from app.studies.fields import is_plain_number, scalar_at, whole_range
 from app.studies.kinds.sweep import Sweep
 from app.studies.point_sets import CheckedAxis
 from app.studies.points import SOLVED
@@ -33,7 +33,6 @@ from app.studies.runner import Line
 
 AROUND = 0.5  # half the width of a field's usual range, as a share of the field's value in the case
 TOLERANCES = 4.0  # half the width of a field's usual range if the value is zero, in tolerances of the field
-INSIDE = 1e-3  # distance of a usual end from a bound that is not itself permissible, as a share of the range
 COUNTS = {"x": 21, "y": 5}  # default numbers of points: 21 make a smooth curve, and 5 curves are easy to tell apart
 MOST_WHOLE = 10_000  # largest number of whole numbers on an axis
 OF_FURTHER = tuple(f"-{place}" for place in range(2, 2 + len(ALSO)))  # ends of the names of further outputs' figures
@@ -93,13 +92,8 @@ class SweepPage(StudyPage):
         """
         if numbers := [option for option in leaf.options if is_plain_number(option)]:
             return min(numbers), max(numbers)
-        value, bounds, tolerance = self._own(leaf), leaf.declared.bounds, leaf.declared.tolerance
-        low, high = bounds.get("ge", bounds.get("gt", -inf)), bounds.get("le", bounds.get("lt", inf))
-        margin = INSIDE * (high - low) if isfinite(high - low) else INSIDE
-        if "gt" in bounds:
-            low += margin
-        if "lt" in bounds:
-            high -= margin
+        value, tolerance = self._own(leaf), leaf.declared.tolerance
+        low, high = whole_range(leaf)
         if value:
             low, high = max(low, value - AROUND * abs(value)), min(high, value + AROUND * abs(value))
         elif value is not None and tolerance is not None:

@@ -147,7 +147,9 @@ class Design(Study):
         self.start = [_share(variable, case) for variable in body.variables]  # start of the search in the unit cube
         self.is_rounded = any(variable.step is not None for variable in body.variables)
         total = (body.evaluations + self.is_rounded) * self.points_per_trial
-        total += 0 if self.pricing is None else self.pricing.points
+        if self.pricing is not None:
+            check_count(self.pricing.points, most, "tolerances.count")  # fewer corrections would not help
+            total += self.pricing.points
         check_count(total, most, "evaluations")
         return total
 

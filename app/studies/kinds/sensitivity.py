@@ -14,9 +14,10 @@ from pydantic import Field
 
 from app.errors import Unprocessable
 from app.schema.fields import ITEM, Leaf, leaves, value_at
+from app.schema.precision import NOISE
 from app.schema.quantities import Input
 from app.studies import runner
-from app.studies.fields import NUMBERS, fault, indexed, not_a_number, scalar_at
+from app.studies.fields import NUMBERS, fault, indexed, is_plain_number, not_a_number, scalar_at
 from app.studies.points import BaseRequest, Point, check_count, check_distinct
 from app.studies.requests import FieldPath, Overrides, StudyRequest
 from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header
@@ -25,7 +26,6 @@ from app.studies.tolerances import class_assumptions, class_tolerances
 RELATIVE_STEP = 0.01  # step as a share of the value; much smaller than usual ranges, much larger than solver errors
 KELVIN_STEP = 1.0  # step of temperatures; a share of a temperature in degrees Celsius has no physical meaning
 DISAGREEMENT = 0.1  # relative difference above which two slopes count as different
-NOISE = 1e-7  # relative change of an output that the tolerance of an iteration can cause
 
 
 class SensitivityRequest(StudyRequest):
@@ -211,7 +211,8 @@ class Sensitivity(Study):
 
     def _ranked(self, column: int, points: list[Point]) -> list[Line]:
         """Return one line per input for the output in `column`. The most influential input comes first."""
-        base, *others = (_number(point.out[column]) for point in points)
+        values = (point.out[column] for point in points)
+        base, *others = (float(value) if is_plain_number(value) else None for value in values)
         rest = iter(others)
         lines: list[Line] = []
         output = self.outputs[column].path
@@ -220,10 +221,6 @@ class Sensitivity(Study):
             line: Line = {"type": "sensitivity", "output": output, "path": moved.leaf.path}
             lines.append(line | differences(moved, outputs))
         return sorted(lines, key=lambda line: -(line["range"] or 0.0))
-
-
-def _number(value: Any) -> float | None:
-    return float(value) if isinstance(value, int | float) and not isinstance(value, bool) else None
 
 
 def _every_number(base: BaseRequest, case: dict[str, Any]) -> list[Leaf]:

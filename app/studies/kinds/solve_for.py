@@ -15,17 +15,26 @@ from app.schema.fields import Leaf, value_at
 from app.schema.model import Request
 from app.schema.quantities import Input
 from app.studies import runner
-from app.studies.fields import NUMBERS, check_value, is_number, is_plain_number, not_a_number
+from app.studies.fields import NUMBERS, check_value, is_number, is_plain_number, not_a_number, whole_range
 from app.studies.oil_tests import NAME, candidates, hold, remarks_on, tests_moved
 from app.studies.point_sets import common_unit
 from app.studies.points import SOLVED, BaseRequest, Point, check_count
-from app.studies.requests import LARGEST, OIL_TESTS, FieldPath, FieldsTogether, OilTests, Overrides, Part, Scalar
+from app.studies.requests import (
+    LARGEST,
+    OIL_TESTS,
+    FieldPath,
+    FieldPaths,
+    FieldsTogether,
+    OilTests,
+    Overrides,
+    Part,
+    Scalar,
+)
 from app.studies.runner import Clock, Line, Lines, Pool, Study, Tally, output_header
 from app.studies.search import OUTLINE, Extreme, Search, Step, found, next_step
 
 FACTOR = 4.0  # default range of a field above zero: the value of the case divided and multiplied by this; chosen
 TOLERANCES = 10.0  # least half width of the default range of any other field, in its tolerances; chosen
-INSIDE = 1e-3  # distance of a default end from a bound that is not itself permissible, as a share of the range
 WIDE = 100.0  # a whole range whose ends have a greater ratio is scanned in even ratios
 MOST_STEPS, USUAL_STEPS = 100, 8  # points after the scan: most of them, and those of a single answer
 LIST_SCANNED = 2  # a list of at most this many times the points of the scan is scanned as a whole
@@ -34,6 +43,7 @@ LIST_SCANNED = 2  # a list of at most this many times the points of the scan is 
 class Sought(FieldsTogether):
     """The field that is sought, or several fields with one value, and the range in which it is sought."""
 
+    path: Annotated[FieldPaths, Input("field to find", text="dotted path, or several fields of one value")]
     min: Annotated[
         float | None,
         Input("lower end", default_text="near the value of the case, inside the range of the field"),
@@ -204,6 +214,7 @@ class SolveFor(Study):
             clock.total = max(len(course.asked), usual)
             async for lines in self._solved(pool, clock, course, range(start, len(course.asked)), step.asked):
                 yield lines
+        clock.total = len(course.asked)
         yield [{**self._end(course), "elapsed_s": clock.elapsed_s}]
 
     async def _next(self, pool: Pool, course: _Course) -> Step:
@@ -341,14 +352,6 @@ def _ends(find: Sought, leaf: Leaf, options: Sequence[float], value: Any) -> tup
             message = f"no range of {leaf.path} follows from the case; give {name}"
             raise Unprocessable("values_or_range", message, f"find.{name}")
     return low, high
-
-
-def whole_range(leaf: Leaf) -> tuple[float, float]:
-    """Return the ends of the permissible range of a field; infinite where it has none."""
-    bounds = leaf.declared.bounds
-    low, high = bounds.get("ge", bounds.get("gt", -inf)), bounds.get("le", bounds.get("lt", inf))
-    margin = INSIDE * (high - low) if isfinite(high - low) else INSIDE
-    return low + margin * ("gt" in bounds), high - margin * ("lt" in bounds)
 
 
 def usual_range(leaf: Leaf, value: Any) -> tuple[float, float]:

@@ -1,6 +1,7 @@
 """Load spectra: the probability that a machine with tolerances exceeds a limit in a case of its load spectrum."""
 
 from collections.abc import Iterable, Sequence
+from math import isclose
 from time import perf_counter
 from typing import Annotated, Self
 
@@ -31,7 +32,7 @@ from app.studies.requests import (
     Value,
 )
 from app.studies.runner import Clock, Line, Lines, Pool, Study, output_header, paths_of
-from app.studies.statistics import ASSUMED_DEVIATION, RELATIVE_DEVIATION, Limit
+from app.studies.statistics import ASSUMED_DEVIATION, RELATIVE_DEVIATION, Estimate, Limit
 from app.studies.tolerances import class_assumptions, class_distributions, class_tolerances
 from app.studies.uncertainty import assumptions_of, model_distributions
 from solvers.arrays import FloatArray
@@ -39,6 +40,7 @@ from solvers.arrays import FloatArray
 PROGRESS_S = 0.5  # time between two lines of progress
 KILOWATTS = {"W": 1e-3, "kW": 1.0}  # size of each unit in kilowatts
 LIMIT_VARIES = 1e-9  # relative range of the scuffing temperature above which a note says that the temperature varies
+LIMIT_AGREES = 1e-3  # a limit that differs from the scuffing temperature by a smaller share is that temperature
 SHARES_OFF = 0.01  # the sum of the given shares may differ from 1 by at most this amount
 RARE = 0.005  # if a probability is smaller, its 90 % interval contains the true value in less than 90 % of all samples
 RARE_NOTE = (
@@ -160,7 +162,8 @@ class Spectrum(Study):
     - for each output and each case, the 5, 50 and 95 % quantiles
 
     The intervals are the error of sampling alone; `tolerances.model_uncertainty` also draws what the models do not know
-    well. `risk` is in the words of AGMA 925-A03, which are about the scuffing temperature; of other limits it is null.
+    well. `risk` is in the words of AGMA 925-A03, which are about the scuffing temperature as an upper limit; of other
+    limits it is null.
 
     Machines without a solution in some case are counted. If there are such machines, only the `bounds` of the
     probability are known. If no output needs the thermal film, the film is not calculated. A line `progress` comes
@@ -209,7 +212,8 @@ class Spectrum(Study):
         drawn_from = body.tolerances or Tolerances()
         tolerances = self.tolerances = drawn_from.model_copy(update={"inputs": inputs}) if inputs else None
         scuffing = base.calculation.words.scuffing
-        if body.limits is None and scuffing:  # the default limit needs the scuffing temperature
+        # The default limit is the scuffing temperature, and the words of risk need it beside a limit of the user.
+        if scuffing and (body.limits is None or any(limit.output == scuffing.contact for limit in body.limits)):
             columns = dict.fromkeys([*self.question.outputs, *scuffing])
             self.question = self.question._replace(outputs=list(columns))
         typical = {scatter.path: next(iter(anchors(scatter).values())) for scatter in inputs}
@@ -332,7 +336,11 @@ def evaluated(study: Spectrum, values: FloatArray) -> Line:
     """
     columns = {path: values[..., place] for place, path in enumerate(study.question.outputs)}
     limits, assumptions, notes = _limits(study, columns)
-    limited = [_of_limit(study, limit, columns[limit.output]) for limit in limits]
+    worded = [_has_words_of_risk(study, limit, columns) for limit in limits]
+    limited = [
+        _of_limit(study, limit, columns[limit.output], has_words)
+        for limit, has_words in zip(limits, worded, strict=True)
+    ]
     if any(content["interval"] and content["deviation"] and content["bounds"][1] < RARE for content in limited):
         notes = [*notes, RARE_NOTE]
     shown = {leaf.path: columns[leaf.path] for leaf in study.outputs}
@@ -344,7 +352,10 @@ def evaluated(study: Spectrum, values: FloatArray) -> Line:
                 "unsolved": float(np.isnan(values[:, :, place]).all(axis=-1).mean()),
                 "means": {path: statistics.mean(column[..., place]) for path, column in shown.items()},
                 "quantiles": {path: statistics.quantiles(column[..., place]) for path, column in shown.items()},
-                "limits": [_case(study, limit, columns[limit.output][..., place], place) for limit in limits],
+                "limits": [
+                    _case(limit, columns[limit.output][..., place], place, has_words)
+                    for limit, has_words in zip(limits, worded, strict=True)
+                ],
             }
             for place, case in enumerate(study.cases)
         ],
@@ -355,15 +366,25 @@ def evaluated(study: Spectrum, values: FloatArray) -> Line:
     }
 
 
-def _case(study: Spectrum, limit: Limit, outputs: FloatArray, place: int) -> Line:
+def _case(limit: Limit, outputs: FloatArray, place: int, has_words: bool) -> Line:
     """Return the probability of one case as if it were alone."""
-    return _judged(study, limit, statistics.of_case(outputs, limit.of_case(place))._asdict())
+    return _judged(statistics.of_case(outputs, limit.of_case(place)), has_words)
 
 
-def _judged(study: Spectrum, limit: Limit, estimate: Line) -> Line:
-    """Return an estimate whose risk is in words only where the words belong: to the scuffing temperature (AGMA)."""
+def _judged(estimate: Estimate, has_words: bool) -> Line:
+    """Return an estimate whose risk is in words only where the words belong."""
+    return estimate._asdict() if has_words else {**estimate._asdict(), "risk": None}
+
+
+def _has_words_of_risk(study: Spectrum, limit: Limit, columns: dict[str, FloatArray]) -> bool:
+    """Whether a limit is the scuffing temperature, of which the words of AGMA 925-A03 are: by default, or as given."""
     paths = BY_PATH[study.question.endpoint].words.scuffing
-    return estimate if paths is not None and limit.output == paths.contact else {**estimate, "risk": None}
+    if paths is None or limit.output != paths.contact or limit.side != "above":
+        return False
+    own = columns[paths.limit][~np.isnan(columns[paths.limit])]
+    return study.body.limits is None or bool(
+        own.size and isclose(limit.mean, float(np.median(own)), rel_tol=LIMIT_AGREES)
+    )
 
 
 def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit], list[Line], list[str]]:
@@ -394,7 +415,7 @@ def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit
     return [limit], [assumption], [note] if varies else []
 
 
-def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
+def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray, has_words: bool) -> Line:
     """Return the results for one limit. The last line of the study contains these results.
 
     The results include:
@@ -421,9 +442,9 @@ def _of_limit(study: Spectrum, limit: Limit, outputs: FloatArray) -> Line:
         "side": limit.side,
         "mean": limit.mean,
         "deviation": limit.deviation or None,
-        **_judged(study, limit, statistics.of_spectrum(outputs, limit)._asdict()),
+        **_judged(statistics.of_spectrum(outputs, limit), has_words),
         "unsolved": 1.0 - float(is_solved.mean()),
-        "decides": statistics.deciding(outputs.reshape(-1, outputs.shape[-1]), limit),
+        "decides": statistics.deciding(outputs, limit),
         "rank_correlation": correlation or None,
         "variance_share": variance or None,
         "quantiles": statistics.quantiles(worst),
