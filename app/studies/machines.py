@@ -203,7 +203,12 @@ def _axes(
         return dict(zip(usual, checked_axes(list(usual.values()), base, MOST_CORNERS, place), strict=True))
     axes = checked_axes(given.uncertain, base, MOST_CORNERS, place)  # they are drawn, so that corners do not count
     _refuse_taken([leaf.path for axis in axes for leaf in axis.leaves], taken, place)
-    return {" and ".join(dict.fromkeys(leaf.title for leaf in axis.leaves)): axis for axis in axes}
+    titles = [" and ".join(dict.fromkeys(leaf.title for leaf in axis.leaves)) for axis in axes]
+    names = [
+        title if titles.count(title) == 1 else f"{title}, {axis.leaves[0].path}"
+        for title, axis in zip(titles, axes, strict=True)
+    ]
+    return dict(zip(names, axes, strict=True))
 
 
 def _refuse_taken(paths: Sequence[str], taken: set[str], place: str) -> None:

@@ -22,7 +22,7 @@ from app.studies.runner import Clock, Line, Pool
 from app.studies.statistics import ASSUMED_DEVIATION, RELATIVE_DEVIATION, Limit
 from solvers.arrays import FloatArray
 
-MORE = 0.1  # a class is worth its price if the probability rises by less than this share, by the users
+MORE = 0.1  # a class is worth its price if the probability rises by less than this share; chosen
 SURE = 0.95  # confidence of a sure comparison, on one side
 FILM_SAFETY = "micropitting.local.safety"
 SCUFFING, MICROPITTING = "scuffing", "micropitting"

@@ -24,7 +24,7 @@ JUMP = 1e-2  # of the spread of the curve; a larger change between two places th
 EDGE = 1 / 16  # of a step of the scan; ends of gaps are not narrowed further
 MOST_AT_EDGES = 24  # places that narrow the ends of gaps; more gaps than these find out are no curve
 TURN_WITHIN = 5e-3  # of the interval around a turn; two steps of the scan
-MOST_TURNS = 2  # turns that are followed, the most promising first
+MOST_TURNS = 4  # turns that are followed, the most promising first
 OUTLINE, TURN, ROOT = range(3)  # what a place was asked for
 
 
@@ -128,14 +128,18 @@ def _turns(search: Search) -> Iterator[float]:
     """Yield the next place of each turn that is followed.
 
     If a value is wanted, a turn is a place closer to it than both neighbours, all on one side. If an extreme is sought,
-    a turn is a place better than both neighbours; an end of the curve needs only one.
+    a turn is a place better than both neighbours. An end of the curve needs only one; if a value is wanted, the curve
+    must also bend back before it.
     """
     outline = search.curve(OUTLINE)
     turns: list[tuple[float, float, float, float]] = []
     for index, (place, output) in enumerate(outline):
         around = outline[max(index - 1, 0) : index + 2]
         solved = [(at, value) for at, value in around if value is not None]
-        if output is not None and _is_turn(search, output, [value for at, value in solved if at != place]):
+        beside = [value for at, value in solved if at != place]
+        if output is None or not _is_turn(search, output, beside):
+            continue
+        if search.wanted is None or len(beside) > 1 or _bends_back(search, outline[::-1] if index else outline):
             turns.append((search.distance(output), output, solved[0][0], solved[-1][0]))
     for _, output, low, high in sorted(turns)[:MOST_TURNS]:
         if search.whole:
@@ -161,7 +165,16 @@ def _is_turn(search: Search, output: float, beside: list[float]) -> bool:
     if not distances or not own <= min(distances) or own == max(distances):
         return False
     sides = {search.side(value) for value in (output, *beside)} if search.wanted is not None else {1}
-    return search.wanted is None or (len(beside) > 1 and len(sides) == 1 and 0 not in sides)
+    return search.wanted is None or (len(sides) == 1 and 0 not in sides)
+
+
+def _bends_back(search: Search, outline: list[tuple[float, float | None]]) -> bool:
+    """Return whether the parabola through the first three places of a curve turns between the first two."""
+    if len(outline) < 3 or any(output is None for _, output in outline[:3]):
+        return False
+    (x, one), (y, two), (z, three) = ((place, search.distance(output or 0.0)) for place, output in outline[:3])
+    first, second = (one - two) / (x - y), (two - three) / (y - z)
+    return (first + (first - second) / (x - z) * (x - y)) * (x - y) > 0.0
 
 
 def _approach(search: Search, first: float, output: float) -> float:
