@@ -76,10 +76,15 @@ def is_of_an_oil(path: str) -> bool:
 
 
 def tests_moved(case: Any, varied: Iterable[str], outputs: Sequence[str]) -> dict[OilTest, int]:
-    """Return the tests of the case's oil on which an output depends, with their stages, if a study varies the oil."""
-    if not any(map(is_of_an_oil, varied)):
+    """Return the tests of the case's oil on which an output depends, with their stages, if a study varies the oil.
+
+    A test whose stage or limit varies too follows the oil already.
+    """
+    fields = {*varied}
+    if not any(map(is_of_an_oil, fields)):
         return {}
-    return {test: stage for test in TESTS if test.judges(outputs) and (stage := value_at(case, test.stage)) is not None}
+    fixed = (test for test in TESTS if not fields & {test.stage, test.absent, test.limit})
+    return {test: stage for test in fixed if test.judges(outputs) and (stage := value_at(case, test.stage)) is not None}
 
 
 def remarks_on(tests: Mapping[OilTest, int], held: Overrides) -> list[str]:

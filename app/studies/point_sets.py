@@ -198,15 +198,14 @@ def scattering(scatters: Sequence[Range | Scatter], base: BaseRequest, place: st
         here = f"{place}.{number}"
         leaf = base.leaf(scatter.path, f"{here}.path")
         message = not_a_number(leaf)
-        if message is not None:
+        is_countable = leaf.kind == "integer" or (bool(leaf.options) and all(map(is_plain_number, leaf.options)))
+        if is_countable and not isinstance(scatter, Listed):
+            holds = f"has the values {', '.join(map(str, leaf.options))}" if leaf.options else "is a whole number"
+            message = f"{scatter.path} {holds}; list its values, with the distribution 'listed'"
+            raise Unprocessable("not_integer", message, here)
+        if message is not None and not is_countable:
             raise Unprocessable(
                 "not_continuous", f"{message}, so it cannot be drawn at random; vary it in a sweep", f"{here}.path"
-            )
-        if leaf.kind == "integer" and not isinstance(scatter, Listed):
-            raise Unprocessable(
-                "not_integer",
-                f"{scatter.path} is a whole number; list its values, with the distribution 'listed'",
-                here,
             )
         for name, value in anchors(scatter).items():
             check_value(leaf, value, f"{here}.{name}")

@@ -323,6 +323,22 @@ def test_stages_of_a_test_are_listed_with_their_weights() -> None:
     assert end["limits"][0]["probability"] == pytest.approx((alone[0] + 3 * alone[1]) / 4)
 
 
+def test_grades_of_an_oil_are_listed_and_whose_stage_counts_is_said() -> None:
+    body = scuffing() | {"cases": [{}], "points": True}
+    grades = scatter_of("lubricant.iso_vg", values=[150, 220], weights=[1, 3])
+    body["tolerances"] = {"count": 8, "replicates": 1, "inputs": [grades]}
+    body["request"]["lubricant"] = {"iso_vg": 220}
+    _, *points, end = solved(body)
+    drawn = [line["at"]["lubricant.iso_vg"] for line in points]
+    assert (drawn.count(150), drawn.count(220)) == (2, 6)
+    assert any("belongs to the oil of the case" in note for note in end["notes"])
+    own = {
+        **body["tolerances"],
+        "inputs": [scatter_of("temperatures.scuffing_test.fzg_stage", values=[10, 12]), grades],
+    }
+    assert not any("belongs to the oil" in note for note in solved({**body, "tolerances": own})[-1]["notes"])
+
+
 def test_risk_in_words_belongs_to_the_scuffing_temperature() -> None:
     *_, end = solved({**scuffing(), "cases": [{}]})
     (own,) = end["limits"]

@@ -28,7 +28,7 @@ from app.pages.typed import as_typed, number_of, text_of
 from app.pages.typesetting import cited, shown
 from app.schema.fields import Leaf, leaf_at, value_at
 from app.studies.fields import is_plain_number, scalar_at
-from app.studies.kinds.spectrum import Spectrum
+from app.studies.kinds.spectrum import NO_LIMIT, Spectrum
 from app.studies.points import SOLVED, BaseRequest
 from app.studies.runner import Line
 from app.studies.statistics import RELATIVE_DEVIATION
@@ -304,7 +304,7 @@ class SpectrumPage(StudyPage):
                     figures[name] = draw(limited)
                 except NoFigure as error:
                     notes.append(error.message)
-        elif not notes:
+        elif NO_LIMIT not in notes:
             notes.append(f"the {output.title} has no limit here; state a limit to get a probability")
         unsolved = end["points"] - sum(end["counts"].get(status, 0) for status in SOLVED)
         if unsolved:

@@ -15,6 +15,7 @@ from app.schema.fields import Leaf
 from app.schema.quantities import Input
 from app.studies import runner, statistics
 from app.studies.fields import NUMBERS
+from app.studies.oil_tests import is_of_an_oil, remarks_on, tests_moved
 from app.studies.point_sets import anchors, cut_off, drawn, fields_set, scattering, unit_cube
 from app.studies.points import SOLVED, BaseRequest, Question, solve_point
 from app.studies.requests import (
@@ -48,6 +49,7 @@ RARE_NOTE = (
     "interval covers the true value in less than 90 % of the studies, for example in about 80 % at a probability of "
     "0.1 % with 8 replicates of 128 machines. Draw more machines"
 )
+NO_LIMIT = "no limit is given, and the request has no scuffing temperature; give a limit or the scuffing temperature"
 NOT_USED = "not used"  # the reason of an assumption begins with these words if the field has no effect on the results
 
 
@@ -217,8 +219,11 @@ class Spectrum(Study):
             columns = dict.fromkeys([*self.question.outputs, *scuffing])
             self.question = self.question._replace(outputs=list(columns))
         typical = {scatter.path: next(iter(anchors(scatter).values())) for scatter in inputs}
-        for case in body.cases:
-            base.checked({**typical, **case.set})
+        requests = [base.checked({**typical, **case.set}) for case in body.cases]
+        # A number of an oil that scatters is the spread of this oil; another grade is another oil.
+        varied = [leaf.path for leaf in self.scattering if leaf.options or not is_of_an_oil(leaf.path)]
+        moved = tests_moved(requests[0], [*varied, *set_by_cases], self.question.outputs)
+        self.oil_remarks = remarks_on(moved, {})
         total = len(body.cases) * (tolerances.count * tolerances.replicates if tolerances else 1)
         if total > most:
             message = _too_many(self.question, {**typical, **body.cases[0].set}, total, most)
@@ -295,7 +300,7 @@ class Spectrum(Study):
             {
                 "type": "end",
                 **concluded,
-                "notes": [*concluded["notes"], *self._ignored(assumptions)],
+                "notes": [*concluded["notes"], *self.oil_remarks, *self._ignored(assumptions)],
                 "points": self.total,
                 "counts": dict(sorted(tally.counts.items())),
                 "errors": dict(sorted(tally.errors.items())),
@@ -398,10 +403,7 @@ def _limits(study: Spectrum, columns: dict[str, FloatArray]) -> tuple[list[Limit
         return [_limit(given) for given in study.body.limits or ()], [], []
     temperatures = columns[paths.limit][~np.isnan(columns[paths.limit])]
     if not temperatures.size:
-        missing = (
-            "no limit is given, and the request has no scuffing temperature; give a limit or the scuffing temperature"
-        )
-        return [], [], [missing]
+        return [], [], [NO_LIMIT]
     first = columns[paths.limit][..., 0]
     mean = float(np.nanmedian(temperatures if np.isnan(first).all() else first))  # median over the machines
     varies = bool(np.ptp(temperatures) > LIMIT_VARIES * abs(mean))
