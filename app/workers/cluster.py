@@ -28,6 +28,8 @@ LOST = "the connection to the Dask scheduler is lost; start the study again"
 class Kernels(WorkerPlugin):
     """Compiles the kernels of calculations in every worker of a cluster, also in one that joins later, or loads them.
 
+    A worker with other sources than the client joins without them: studies refuse it.
+
     Parameters
     ----------
     *endpoints : str
@@ -38,10 +40,12 @@ class Kernels(WorkerPlugin):
 
     def __init__(self, *endpoints: str) -> None:
         self.endpoints = endpoints
+        self.sources = SOURCES
 
     async def setup(self, worker: Worker) -> None:
         """Load the kernels in the thread that solves, so that the worker goes on answering the scheduler."""
-        await asyncio.get_running_loop().run_in_executor(worker.executors["default"], self.load)
+        if self.sources == SOURCES:
+            await asyncio.get_running_loop().run_in_executor(worker.executors["default"], self.load)
 
     def load(self) -> None:
         """Load the kernels into this process."""

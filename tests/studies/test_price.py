@@ -16,6 +16,7 @@ from app.studies.points import BaseRequest, with_overrides
 from app.studies.price import Damage, coarsest, influences, of_class, probability
 from app.studies.requests import DRIVE_TRAIN
 from solvers.arrays import FloatArray
+from tests.support.properties import seeds
 from tests.support.requests import GONE, changed
 from tests.support.studies import fault_of, lines_of
 
@@ -267,16 +268,48 @@ def test_scatter_to_zero_gives_the_fixed_design() -> None:
     assert end["evaluations"] == 1
 
 
-def test_brute_force_finds_the_same_probability() -> None:
+def unit_of(rng: np.random.Generator) -> dict[str, Any]:
+    changes = {
+        "operation.power_kw": rng.uniform(8000, 14000),
+        "operation.pinion_speed_rpm": rng.uniform(9000, 11000),
+        "temperatures.oil_c": rng.uniform(45, 60),
+        SLOPE: rng.uniform(10, 80),
+    }
+    return changed(UNIT, changes)
+
+
+@seeds(4, 20, default=1)
+def test_brute_force_finds_the_same_probability(rng: np.random.Generator) -> None:
     """Each drawn machine, sent to the endpoint on its own, gives the probability that the study states."""
-    tolerances = {"count": 1, "replicates": 2, "classes": [7]}
-    *_, end = designed(tolerances=tolerances, judged_by="probability")
-    drawn = machines(**tolerances)
+    request, quality_class = unit_of(rng), int(rng.integers(3, 8))
+    tolerances = {"count": 1, "replicates": 2, "classes": [quality_class]}
+    *_, end = designed(request, tolerances=tolerances, judged_by="probability")
+    drawn = machines(request, **tolerances)
     at = end["price"]["correction"]
-    single = [chance_of(drawn.overrides(draw, 7, at)) for draw in range(4)]
+    single = [chance_of(drawn.overrides(draw, quality_class, at), request) for draw in range(4)]
     (row,) = end["price"]["classes"]
     assert row["probability"] == pytest.approx(np.mean(single), rel=1e-9)
     assert end["objective_best"] == pytest.approx(np.mean(single[:2]), rel=1e-9), "the search judges by one sample"
+
+
+@pytest.mark.parametrize("count", [pytest.param(1, marks=pytest.mark.ci), pytest.param(20, marks=pytest.mark.slow)])
+def test_a_quadrature_over_both_slopes_finds_the_same_probability(count: int) -> None:
+    """Nothing of the study is used: two normal slopes, of which the tolerance is three deviations, and the answers."""
+    nodes, weights = np.polynomial.hermite_e.hermegauss(5)
+    for seed in range(count):
+        rng = np.random.default_rng([66, seed])
+        request, quality_class = unit_of(rng), int(rng.integers(3, 8))
+        tolerances = {**ALONE, "count": 16, "replicates": 4, "classes": [quality_class]}
+        *_, end = designed(request, tolerances=tolerances)
+        (row,) = end["price"]["classes"]
+        means = {SLOPE: end["price"]["correction"][SLOPE], PROFILE: value_at(request, PROFILE) or 0.0}
+        helix, profile = (
+            [{path: means[path] + node * row["tolerances"][path.partition(".")[2]] / 3} for node in nodes]
+            for path in means
+        )
+        grid = [[chance_of(one | other, request) for other in profile] for one in helix]
+        expected = weights @ np.array(grid) @ weights / weights.sum() ** 2
+        assert row["probability"] == pytest.approx(expected, rel=0.02, abs=4 * row["standard_error"]), seed
 
 
 @pytest.mark.ci
