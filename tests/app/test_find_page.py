@@ -62,6 +62,7 @@ def test_the_answer_opens_the_case_that_was_solved() -> None:
     assert re.search(r'alt="Thrust to be held over transmitted torque\. 10.000.N at 3665.N m"', html)
 
 
+@pytest.mark.ci
 def test_the_script_knows_the_places_in_the_image_for_phones_too() -> None:
     html = result_of(asked(COUPLING, x=TORQUE, wanted="10000"))[2]
     study = json.loads(html.partition('data-study="')[2].partition('">')[0])
@@ -144,6 +145,7 @@ def test_more_beyond_an_end_is_said_only_where_the_field_permits_it() -> None:
     assert told.endswith("2 N, the upper end of the range: it may be greater beyond.")
 
 
+@pytest.mark.ci
 def test_without_an_answer_the_search_goes_on_beyond_the_nearest_end() -> None:
     (further,) = buttons(result_of(asked(COUPLING, x=TORQUE, wanted="1e5"))[2]).items()
     assert further[0] == "Search from 12 000 to 48 000 N m"
@@ -196,6 +198,7 @@ def test_over_the_grade_the_page_says_whose_stage_it_is_and_offers_both_ways_out
     assert (held.path, held.views["oil_tests"]) == ("/scuffing/vary", "held")
 
 
+@pytest.mark.ci
 def test_named_oils_are_bars_and_open_with_their_own_stages() -> None:
     study, lines, html = result_of(asked(PITTED, x="lubricant.name", show=S_LAMBDA, wanted="1.2"))
     first = lines[1]
@@ -235,6 +238,7 @@ def test_a_page_streams_its_search(client: httpx.Client) -> None:
 POWER = Coordinate(Axis("power", "kW"), values([1.0, 2.0, 3.0]))
 
 
+@pytest.mark.ci
 def test_a_sweep_shows_up_to_four_outputs() -> None:
     shows = {"show.2": LIMIT, "show.3": FILM, "show.4": "losses.friction_power_w"}
     study = checked(SweepPage, asked(COUPLING, x=TORQUE, **{"x.count": "3"}, **shows))

@@ -205,6 +205,7 @@ def test_shafts_are_not_asked_for_where_typical_ones_would_do() -> None:
     assert steps["On shafts"].title == "typical shafts and bearings"
 
 
+@pytest.mark.ci
 def test_a_case_that_is_too_long_for_a_link_says_so_and_offers_nothing() -> None:
     here = asked(PAIR)
     long = Asked(

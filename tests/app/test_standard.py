@@ -89,6 +89,7 @@ def test_factors_beyond_their_range_are_refused(name: str, value: float) -> None
     assert [fault.pointer for fault in refusal.value.faults] == [f"/standard/{name}"]
 
 
+@pytest.mark.ci
 def test_page_and_report_show_both_side_by_side_and_say_why_they_differ() -> None:
     case = Asked("/scuffing", pairs_of(changed(MICRO, {"modifications": {}})))
     for html in (html_of(case), report(case, "").content.decode()):
@@ -183,6 +184,7 @@ def test_the_quality_grade_follows_the_quality_class(endpoint: str, request_of: 
         assert first[1] > first[0] == first[2]
 
 
+@pytest.mark.ci
 def test_page_and_report_of_a_unit_show_both_side_by_side() -> None:
     case = Asked("/drive-train", pairs_of(changed(TURBO, PLAIN | {"micropitting": {"failure_load_stage": 8}})))
     for html in (html_of(case), report(case, "").content.decode()):
@@ -192,6 +194,7 @@ def test_page_and_report_of_a_unit_show_both_side_by_side() -> None:
         assert tables["Scuffing"].count("–") < 5
 
 
+@pytest.mark.ci
 def test_the_page_of_two_helices_has_a_table_for_each() -> None:
     html = html_of(Asked("/drive-train", pairs_of(changed(DOUBLE, PLAIN))))
     assert tables_of(html).keys() == {"Scuffing of helix 1", "Scuffing of helix 2"}

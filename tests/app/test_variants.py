@@ -3,6 +3,8 @@
 import re
 from html import unescape
 
+import pytest
+
 from app.calculations import BY_PATH
 from app.examples import examples
 from app.pages import views
@@ -98,6 +100,7 @@ def test_a_comparison_shows_only_what_differs() -> None:
     assert rows[0] == rows[1] + alike
 
 
+@pytest.mark.ci
 def test_every_variant_is_in_the_report() -> None:
     base = asked(COUPLING)
     also = SEPARATOR.join((query(0.2), query(0.3)))

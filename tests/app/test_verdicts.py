@@ -307,6 +307,7 @@ def test_a_solved_form_folds_options_and_the_items_of_lists() -> None:
     assert {part.path: part for part in sections(faulty)}["pinion_shaft.bearings.0"].open
 
 
+@pytest.mark.ci
 def test_a_report_prints_no_address_of_this_computer_and_says_how_to_get_a_pdf() -> None:
     example = asked("pahl-sleeve-orbit")
     html = views.report(example, "http://127.0.0.1:8123").content.decode()
