@@ -306,7 +306,7 @@ def test_corners_are_those_typed_on_both_pages() -> None:
 def test_ranges_and_trials_come_from_the_form() -> None:
     said = {"low.0": "-10", "high.0": "20,5", "trials": "7", "show": "load.face_load_factor"}
     body = checked(DesignPage, asked(UNIT, **said)).body()
-    assert (body["judged_by"], body["tolerances"]) == ("worst_corner", {"count": 8, "replicates": 4})
+    assert (body["judged_by"], body["tolerances"]) == ("worst_corner", {"count": 4, "replicates": 4})
     judged = checked(DesignPage, asked(UNIT, judged="probability", drawn="16")).body()
     assert (judged["judged_by"], judged["tolerances"]["count"]) == ("probability", 16)
     assert body["variables"][0] == {"path": ["modifications.helix_slope_um"], "min": -10, "max": 20.5, "step": 0.5}
