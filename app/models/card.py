@@ -30,7 +30,8 @@ class Beside(NamedTuple):
     """Values of several methods side by side: title, names of the methods, rows, and the sentence why they differ.
 
     A row is its label and one path for each method; empty where a method has no such value. The table is shown where
-    the section `asked` of the answer is not null, and the section `unless` is not there.
+    the section `asked` of the answer is not null, and the section `unless` is not there. The note of the code `lacking`
+    says why a method has no values.
     """
 
     title: str
@@ -39,6 +40,7 @@ class Beside(NamedTuple):
     why: str
     asked: str
     unless: str
+    lacking: str
 
 
 class FileResult(NamedTuple):

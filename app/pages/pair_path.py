@@ -77,6 +77,8 @@ def path_of(asked: Asked, study: str = "") -> list[Step]:
     basis = [] if _has_shafts(unit) else missing(unit, UNIT)  # what is missing for typical shafts
     lacking = [missing(each) for each in places] + 3 * [basis or missing(filled)]
     troubles = [_trouble(lacks, address) for lacks, address in zip(lacking, addresses, strict=True)]
+    if study == DESIGN.name:
+        troubles[-1] = "below, with the correction found"
     now = DESIGN.name if study == DESIGN.name else here.path
     current = [now == place for place in (SCUFFING, PUMPING, TRAIN, DESIGN.name, "")]
     questions = _questions(typical=bool(basis) or "typical" in filled.views)

@@ -6,7 +6,7 @@ from typing import Any
 
 from app.calculations import BY_PATH, card_of
 from app.pages.carried import carried_to, missing
-from app.pages.cases import REFUSED, Asked, faults_of, solved
+from app.pages.cases import REFUSED, Asked, SolvedCase, faults_of, solved
 from app.pages.charts import figures_of
 from app.pages.pair_path import PUMPING, SCUFFING, TRAIN, WITH_PAIR
 from app.pages.results import cards, conclusion, resolved, verdict, warned
@@ -79,4 +79,10 @@ def _sheet(asked: Asked) -> Table | None:
         case = solved(asked.calculation, asked.pairs, asked.kept)
     except REFUSED:
         return None
-    return None if case.response.status == "no_solution" else grinding_sheet(case)
+    return grinding_sheet(case) if case.response.status != "no_solution" and _is_corrected(case) else None
+
+
+def _is_corrected(case: SolvedCase) -> bool:
+    """Whether the flanks of a case have any correction to grind."""
+    given = value_at(case.request, "modifications")
+    return any(value for name, value in given.model_dump().items() if name.endswith("_um"))

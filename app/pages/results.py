@@ -371,7 +371,7 @@ def beside(response: Response) -> list[BesideTable]:
     values = values_by_path(response)
     given = {f"inputs.{path}": value for path, value in resolved(response).items()} if response.inputs else {}
     tables = []
-    for title, methods, rows, why, asked, unless in words_of(response).beside:
+    for title, methods, rows, why, asked, unless, lacking in words_of(response).beside:
         shown_elsewhere = unless and any(path.startswith(f"{unless}.") for path in values)
         if shown_elsewhere or not any(path.startswith(f"{asked}.") for path in values):
             continue
@@ -380,7 +380,9 @@ def beside(response: Response) -> list[BesideTable]:
             leaves = [leaf_at(type(response), path) for path in paths]
             unit = next((leaf.unit for leaf in leaves if leaf and leaf.unit), "")
             lines.append((label, [shown(values.get(path, given.get(path)), DIGITS + 1) for path in paths], unit))
-        tables.append(BesideTable(title, methods, lines, why))
+        notes = (warning.message for warning in response.warnings if warning.code == lacking)
+        told = [f"{note[0].upper()}{note[1:]}." for note in notes]
+        tables.append(BesideTable(title, methods, lines, " ".join([why, *told])))
     return tables
 
 

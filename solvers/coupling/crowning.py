@@ -19,7 +19,6 @@ from scipy.optimize import brentq, minimize_scalar
 from solvers.arrays import FloatArray, frozen
 from solvers.coupling.inputs import (
     MAX_MISALIGNMENT,
-    Coupling,
     CouplingInputs,
     RecommendationInputs,
     check_inputs,
@@ -88,6 +87,7 @@ class Recommendation:
         text="of the flank at both ends of the face against its middle, in the tangential plane",
         equation="C33",
     )
+    tangential_flank_radius: float | None = quantity("flank radius in the tangential plane", "R_t", unit="mm")
     unloading_misalignment: float | None = quantity(
         "unloading misalignment",
         "δ_L",
@@ -291,7 +291,8 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
         feasible=True,
         crowning_ratio=ratio,
         crowning_radius=at_max.geometry.crowning_radius,
-        crowning_drop=crowning_drop(inputs.design.coupling, at_max.geometry),
+        crowning_drop=at_max.geometry.crowning_drop,
+        tangential_flank_radius=at_max.geometry.tangential_flank_radius,
         unloading_misalignment=unloading,
         unloading_margin=unloading / inputs.max_misalignment,
         min_load_capacity_coefficient=state(ratio).load_capacity_coefficient,
@@ -302,11 +303,6 @@ def recommend(inputs: RecommendationInputs) -> Recommendation:
         derived=Derived.of(inputs.design),
         warnings=_merged((*sliding, *at_min.warnings, *at_max.warnings)),
     )
-
-
-def crowning_drop(coupling: Coupling, geometry: Geometry) -> float:
-    """Drop of the flank at the ends of the face against its middle: c_b = (b/2)^2/(2 R_t) [m] (Eq. C33)."""
-    return (coupling.face_width / 2.0) ** 2 / (2.0 * geometry.tangential_flank_radius)
 
 
 def _best_ratio(state: Callable[[float], CrowningState], low: float, high: float) -> float:
@@ -370,6 +366,7 @@ def _infeasible(failed: str, scan: CrowningScan, used: Derived, warnings: tuple[
         crowning_ratio=None,
         crowning_radius=None,
         crowning_drop=None,
+        tangential_flank_radius=None,
         unloading_misalignment=None,
         unloading_margin=None,
         min_load_capacity_coefficient=None,

@@ -31,7 +31,7 @@ def pitch_radius(coupling: Coupling) -> float:
 
 
 def tooth_geometry(coupling: Coupling) -> Geometry:
-    """Pitch, crowning and flank radii [m] (Eq. C1).
+    """Pitch, crowning and flank radii, and the drop of the crowning c_b = (b/2)^2/(2 R_t) [m] (Eq. C1, C33).
 
     The cutter centre moves on a circle of radius r_b: at the distance zeta from the middle it is fed by zeta^2/(2 r_b),
     so the flank radius is r_b/tan(alpha) in the tangential plane and r_b/sin(alpha), Pahl's R_e, in the plane of
@@ -39,10 +39,12 @@ def tooth_geometry(coupling: Coupling) -> Geometry:
     """
     radius = pitch_radius(coupling)
     crowning_radius = coupling.crowning_ratio * radius
+    tangential = crowning_radius / tan(coupling.pressure_angle)
     return Geometry(
         pitch_radius=radius,
         crowning_radius=crowning_radius,
-        tangential_flank_radius=crowning_radius / tan(coupling.pressure_angle),
+        crowning_drop=(coupling.face_width / 2.0) ** 2 / (2.0 * tangential),
+        tangential_flank_radius=tangential,
         normal_flank_radius=crowning_radius / sin(coupling.pressure_angle),
     )
 

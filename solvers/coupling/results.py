@@ -26,6 +26,13 @@ class Geometry:
         text="radius of the cutter centre's path",
         equation="coupling#geometry",
     )
+    crowning_drop: float = quantity(
+        "drop of the crowning",
+        "c_b",
+        unit="um",
+        text="of the flank at both ends of the face against its middle, in the tangential plane",
+        equation="C33",
+    )
     tangential_flank_radius: float = quantity("flank radius in the tangential plane", "R_t", unit="mm")
     normal_flank_radius: float = quantity("flank radius in the plane of action", "R_e", f"{PAHL}, Fig. 8", unit="mm")
 

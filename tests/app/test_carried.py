@@ -133,7 +133,7 @@ def test_the_main_result_of_the_crowning_is_radius_and_drop() -> None:
     here = asked("starter-coupling-crowning")
     response = solved(here.calculation, here.pairs, None).response
     html = html_of(here)
-    said = html.partition('class="finding good">')[2].partition("<")[0].replace("\u00a0", " ")
+    said = html.partition('class="finding near">')[2].partition("<")[0].replace("\u00a0", " ")
     assert said.startswith(f"Crown with radius {number(response.crowning_radius_mm, 'mm')}: the flanks drop ")
     first, second, third, fourth, *_ = cards(response, resolved(response))
     assert [each.path for each in (first, second, third, fourth)] == [

@@ -10,7 +10,7 @@ import pytest
 from tests.support.requests import GONE, Post, accepted, assumptions, changed, example, refusals, value_at, warned
 
 RESULT = {
-    "geometry": "pitch_radius_mm crowning_radius_mm tangential_flank_radius_mm normal_flank_radius_mm",
+    "geometry": "pitch_radius_mm crowning_radius_mm crowning_drop_um tangential_flank_radius_mm normal_flank_radius_mm",
     "kinematics": (
         "max_sliding_velocity_m_per_s max_contact_travel_mm max_hydrodynamic_velocity_m_per_s "
         "tangential_displacement_peak_to_peak_um curves"

@@ -138,6 +138,33 @@ def test_jumps_and_gaps_are_no_answers() -> None:
     assert found_with(nearest=None) == "No answer: no point of the range has a solution."
 
 
+def test_a_curve_that_levels_off_is_not_followed_further() -> None:
+    study = checked(SolveForPage, asked(COUPLING, x=TORQUE, wanted="5"))
+    header = {"find": {"min": 0.0, "max": 100.0, "scale": "linear"}, "equals": 5.0, "extreme": None}
+    nearest = {"at": 100.0, "out": 4.0, "end": "max"}
+    end = {"answers": [], "crossings": [], "nearest": nearest, "constant": False}
+    places = [0.0, 25.0, 50.0, 75.0, 100.0]
+    flat, rising = (
+        Found(
+            study.leaf,
+            study.output,
+            header,
+            end,
+            [{"at": at, "out": [out]} for at, out in zip(places, outs, strict=True)],
+        )
+        for outs in ([0.0, 3.0, 3.9, 3.99, 4.0], [0.0, 1.0, 2.0, 3.0, 4.0])
+    )
+    assert flat.answer().endswith("the upper end of the range, where it levels off.")
+    assert rising.answer().endswith("the upper end of the range.")
+    assert (study._links(flat), len(study._links(rising))) == ([], 1)
+
+
+def test_a_range_is_not_made_longer_through_zero() -> None:
+    study = checked(SolveForPage, asked(COUPLING, x="operation.misalignment_deg", wanted="5"))
+    header = {"find": {"min": 0.02, "max": 0.1, "scale": "linear"}, "equals": 5.0, "extreme": None}
+    assert Found(study.leaf, study.output, header, {}).beyond("min") == (0.0, 0.02)
+
+
 def test_more_beyond_an_end_is_said_only_where_the_field_permits_it() -> None:
     least, greatest = ({"at": at, "out": 2.0, "end": end} for at, end in ((0.0, "min"), (9.0, "max")))
     assert found_with("least", answers=[least], nearest=least).endswith("2 N, the lower end of the range.")
@@ -287,7 +314,7 @@ def test_both_lines_of_the_verdict_are_drawn_where_they_are_near() -> None:
 def test_the_time_left_is_said_if_it_is_long() -> None:
     study = checked(SweepPage, asked(COUPLING, x=TORQUE))
     text = pages.drawn(study, [], Progress(3, 21, 42.0)).decode()
-    assert "3 of 21 points, about 40 s left" in text
+    assert "3 of 21 points, about 40 s left" in re.sub("<[^>]+>", "", text)
     assert "left" not in pages.drawn(study, [], Progress(3, 21)).decode().replace("left out", "")
     clock = Clock(100)
     assert clock.progress == Progress(0, 100)

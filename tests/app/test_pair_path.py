@@ -28,7 +28,7 @@ from app.pages.carried import carried_to, offers
 from app.pages.cases import Asked
 from app.pages.overview import new_pair_page
 from app.pages.pair_path import ENTRY, TRAIN, WITH_PAIR, Step, assumed_of, path_of, template, with_typical
-from app.pages.pair_report import _step, others_of, report_of
+from app.pages.pair_report import _sheet, _step, others_of, report_of
 from app.pages.query import body_of, pairs_of
 from app.schema.reading import validated
 from solvers.gears.inputs import GearPairInputs, GearTeeth
@@ -143,6 +143,8 @@ def test_every_step_of_the_path_takes_the_pair_along() -> None:
     assert dict(train_of(carried_to(train, BY_PATH["/v1/pumping"])).pairs) == dict(train.pairs)
     assert steps["One report"].address.startswith("/drive-train/report?")
     assert f"extent={WITH_PAIR}" in steps["One report"].address
+    found = path_of(train, "design")[-1]
+    assert (found.address, found.trouble) == ("", "below, with the correction found"), "not of the case as described"
     html = html_of(train.__class__("/drive-train", [], {}))
     assert 'aria-label="Path of a gear pair"' in html
 
@@ -283,6 +285,7 @@ def test_the_report_speaks_of_the_slope_only_if_there_is_one(slope: str | None, 
 def test_one_report_holds_all_steps_and_marks_what_is_assumed() -> None:
     train = train_of(asked(PAIR))
     quick = [*train.pairs, ("model.lubrication", "closed_form"), ("modifications.helix_slope_um", "-20")]
+    quick.append(("gears.quality_class", "6"))
     whole = Asked(train.path, quick, {**train.views, "extent": WITH_PAIR})
     shown = report_of(whole, "", others_of(whole))
     text = unescape(shown.content.decode())
@@ -293,9 +296,16 @@ def test_one_report_holds_all_steps_and_marks_what_is_assumed() -> None:
     assert "Typical shafts and bearings: " in text
     sheet = text.partition("<h2>What to grind</h2>")[2].partition("</table>")[0]
     assert re.search(r"helix slope, over the face width.*?>20<", sheet, re.DOTALL)
+    assert "what both gears together may have in quality class 6" in text
     assert re.search(r"journal diameter.*?assumed", text, re.DOTALL)
     alone = views.report(Asked(train.path, quick, train.views), "").content.decode()
     assert "Choked?" not in alone
+
+
+def test_a_report_of_flanks_without_correction_has_no_sheet_for_the_grinder() -> None:
+    train = train_of(asked(PAIR))
+    plain = [(name, text) for name, text in train.pairs if not name.startswith("modifications.")]
+    assert _sheet(Asked(train.path, [*plain, ("model.lubrication", "closed_form")])) is None
 
 
 HOSTILE = [

@@ -1,6 +1,7 @@
 """The service states the standard's numbers beside the local ones, and checks dry or greased pairs and units."""
 
 import re
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -9,6 +10,7 @@ from app.calculations import BY_PATH
 from app.errors import InvalidBody, Unprocessable
 from app.evaluate import answer
 from app.examples import examples
+from app.models.scuffing.words import by_standard
 from app.pages.cases import Asked
 from app.pages.query import pairs_of
 from app.pages.views import report
@@ -24,6 +26,7 @@ DOUBLE = examples()["starter-turbo-double-helical"].request | {"model": {"lubric
 PLAIN = {"modifications.tip_relief_um": 0.0, "modifications.root_relief_um": 0.0}
 TEST = {"temperatures": {"oil_c": 50.0, "scuffing_test": {"fzg_stage": 12}}}
 DRY_TURBO = {name: section for name, section in TURBO.items() if name not in {"lubricant", "temperatures"}}
+BY_BOTH = "By ISO/TS 6336-20 and -21 the safety factor is"
 GIVEN = {
     "temperatures": {"bulk_c": 90.0, "oil_c": 40.0, "scuffing_c": 300.0},
     "friction_coefficient": 0.1,
@@ -150,6 +153,24 @@ def test_a_relieved_unit_says_once_why_the_flash_method_is_missing() -> None:
     assert found["safety"]["standard"]["flash"] is None
     assert [each["code"] for each in found["warnings"]].count("no_standard_flash") == 1
     assert train(TURBO, {"temperatures.scuffing_c": None})["safety"] is None
+
+
+@pytest.mark.parametrize(
+    ("flash", "integral", "own", "said"),
+    [
+        (0.66, 1.1, 1.4, f"{BY_BOTH} 0.66 (flash) and 1.1 (integral): by the standard it scuffs."),
+        (0.66, 1.1, 0.9, f"{BY_BOTH} 0.66 (flash) and 1.1 (integral)."),
+        (None, 1.28, 1.85, "By ISO/TS 6336-21 the safety factor is 1.28 (integral)."),
+        (None, None, 1.85, ""),
+    ],
+)
+def test_the_conclusion_says_what_the_standard_finds(
+    flash: float | None, integral: float | None, own: float, said: str
+) -> None:
+    methods = {
+        name: safety and SimpleNamespace(safety=safety) for name, safety in (("flash", flash), ("integral", integral))
+    }
+    assert by_standard(SimpleNamespace(standard=SimpleNamespace(**methods)), own) == said
 
 
 def test_each_helix_has_its_own_standard() -> None:

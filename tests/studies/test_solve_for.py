@@ -200,6 +200,14 @@ def test_equal_lines_on_any_number_of_processes() -> None:
     assert low == pytest.approx(-high)
 
 
+def test_a_peak_at_zero_is_seen_between_two_points() -> None:
+    """The thrust of nearly coaxial shafts is a peak that is far narrower than a step of the scan."""
+    body = coupling("operation.misalignment_deg", THRUST, equals=2000, min=-0.5, max=0.1, count=5)
+    low, high = (each["at"] for each in ended(body)["answers"])
+    assert low == pytest.approx(-high)
+    assert high < 0.02
+
+
 def test_a_range_without_an_answer_names_the_nearest_and_its_end() -> None:
     end = ended(coupling(TORQUE, equals=1e6))
     assert end["answers"] == end["crossings"] == []

@@ -227,10 +227,12 @@ def problem_page(
 ) -> Response:
     """Return a page that states why a request was not answered.
 
-    If the request sent a file, the page has a field for another file.
+    If the request sent a file, the page has a field for another file. If the service was busy, it can be asked again.
     """
     place = path_of(http).split("/")[1]
-    return html(rendered("problem.html", root_of(http), title=title, detail=detail, place=place), status, headers)
+    again = http.method == "GET" and status in {HTTPStatus.SERVICE_UNAVAILABLE, HTTPStatus.GATEWAY_TIMEOUT}
+    page = rendered("problem.html", root_of(http), title=title, detail=detail, place=place, again=again)
+    return html(page, status, headers)
 
 
 def unknown_figure(names: Iterable[str], formats: Iterable[str]) -> HTTPException:

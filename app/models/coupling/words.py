@@ -159,10 +159,15 @@ def conclusion(response: Any) -> str:
     permits = f"The limit of the sliding velocity permits {tilt}."
     if thrust.fraction_of_limit is None:
         return f"Free axially: without load its teeth have no friction. {permits}"
+    load, teeth = response.load_distribution, response.inputs["coupling"]["teeth"]
+    carry = "All" if load.loaded_teeth == teeth else f"{load.loaded_teeth} of"
+    unloads = f"{carry} {teeth} teeth carry; the first unloads at {number(load.unloading_misalignment_deg, '°')}."
     if thrust.indeterminate:
-        return permits
+        return f"{permits} {unloads}"
+    if not response.inputs["operation"]["axial_velocity_mm_per_s"]:
+        return f"Free axially; at an axial velocity of zero nothing pushes it. {permits} {unloads}"
     share = percent(abs(thrust.fraction_of_limit))
-    return f"Free axially: its thrust in motion is {share} of the thrust of coaxial shafts. {permits}"
+    return f"Free axially: its thrust in motion is {share} of the thrust of coaxial shafts. {permits} {unloads}"
 
 
 def orbit_verdict(response: Any) -> Verdict:
@@ -176,7 +181,11 @@ def crowning_verdicts(response: Any) -> dict[str, Verdict]:
         return {}
     teeth, largest = response.inputs["coupling"]["teeth"], _range_of(response)[1]
     judged = {
-        "crowning_radius_mm": Verdict("plain", f"crowning ratio ε = {number(response.crowning_ratio)}"),
+        "crowning_radius_mm": Verdict(
+            "plain",
+            f"of the cutter's path (ε = {number(response.crowning_ratio)}); the flank then has "
+            f"{number(response.tangential_flank_radius_mm, 'mm')} in the tangential plane",
+        ),
         "crowning_drop_um": Verdict(
             "plain", f"of the flank at both ends of the {number(response.derived.face_width_mm, 'mm')} face"
         ),
@@ -208,7 +217,7 @@ def recommendation_verdict(response: Any) -> Verdict:
         low, high = (number(tilt, "°") for tilt in _range_of(response))
         return Verdict("bad", f"No crowning serves {low} to {high}: {CONSTRAINTS[response.failed_constraint]}.")
     return Verdict(
-        "good" if response.unloading_margin >= 1.0 else "near",
+        "good" if response.unloading_margin >= 1.0 / NEAR_LIMIT else "near",
         f"Crown with radius {number(response.crowning_radius_mm, 'mm')}: the flanks drop "
         f"{number(response.crowning_drop_um, 'µm')} over the {number(response.derived.face_width_mm, 'mm')} face "
         f"(ε = {number(response.crowning_ratio)}).",

@@ -15,6 +15,7 @@ from app.models.scuffing.words import (
     LocalPaths,
     band_of,
     beside,
+    by_standard,
     how_well_known,
     risk_of_scuffing,
     tile_of_scuffing,
@@ -144,15 +145,20 @@ def belongs(response: Any) -> dict[str, str]:
 
 
 def conclusion(response: Any) -> str:
-    """Say of a double-helical unit whether its coupling locks, and what is ground on each helix."""
+    """Say what the standard finds; of a double-helical unit whether its coupling locks, and what is ground on each."""
     if response.axial is None:
-        return ""
+        return by_standard(response.safety, _least(response))
     grind = [
         f"Grind on helix {place}: slope {number(helix.misalignment.recommended_helix_slope_um, 'µm')}, crowning "
         f"{number(helix.misalignment.recommended_lead_crowning_um, 'µm')} (first estimate)."
         for place, helix in enumerate(response.helices, start=1)
     ]
-    return "\n".join([_locks(response), *grind])
+    standards = [
+        said
+        for place, helix in enumerate(response.helices, start=1)
+        if (said := by_standard(helix.safety, helix.safety and helix.safety.minimum, f" of helix {place}"))
+    ]
+    return "\n".join([_locks(response), *standards, *grind])
 
 
 def _locks(response: Any) -> str:

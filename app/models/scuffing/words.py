@@ -174,6 +174,25 @@ def verdict(response: Any) -> Verdict:
     return with_micropitting(first, response)
 
 
+def by_standard(safety: Any, own: float | None, of: str = "") -> str:
+    """Return the safety factors of the standard, and whether it alone says that the pair scuffs; else nothing."""
+    standard = safety.standard if safety is not None else None
+    methods = () if standard is None else (("20", "flash", standard.flash), ("21", "integral", standard.integral))
+    found = [(part, name, each.safety) for part, name, each in methods if each is not None and each.safety is not None]
+    if not found:
+        return ""
+    parts = " and ".join(f"-{part}" for part, _, _ in found)
+    factors = " and ".join(f"{number(factor)} ({name})" for _, name, factor in found)
+    is_stricter = own is not None and own >= 1.0 > min(factor for _, _, factor in found)
+    end = ": by the standard it scuffs" if is_stricter else ""
+    return f"By ISO/TS 6336{parts} the safety factor{of} is {factors}{end}."
+
+
+def conclusion(response: Any) -> str:
+    """Say what the standard finds beside the local verdict."""
+    return by_standard(response.safety, _factor(response))
+
+
 def _factor(response: Any) -> float | None:
     """Return the safety factor against scuffing; None if the answer has none."""
     factor: float | None = response.safety.blok_factor if response.safety is not None else None
@@ -290,6 +309,7 @@ def beside(local: LocalPaths, *, of: str = "", at: str = "", unless: str = "") -
             WHY_SCUFFING_DIFFERS,
             standard,
             unless,
+            "no_standard_flash",
         ),
         Beside(
             f"Micropitting{of}: local and by the standard",
@@ -298,6 +318,7 @@ def beside(local: LocalPaths, *, of: str = "", at: str = "", unless: str = "") -
             WHY_MICROPITTING_DIFFERS,
             film,
             unless,
+            "no_standard_film",
         ),
     )
 
@@ -317,6 +338,7 @@ _LOAD, _BULK, _PITTING = "load.face_load_factor", "contact_temperature.bulk_c", 
 WORDS = Words(
     verdict=verdict,
     verdicts=verdicts,
+    conclusion=conclusion,
     tiles=(_LOAD, _BULK, _PITTING),
     touches={
         "low_peclet": (_SAFETY, _HOTTEST),

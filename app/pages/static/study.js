@@ -10,6 +10,7 @@ document.addEventListener("click", (event) => {
   window.stop();
   loading = false;
   event.target.hidden = true;
+  document.querySelectorAll(".progress .left").forEach((left) => left.remove());
   document.getElementById("state").textContent = "Stopped. The points calculated so far are shown.";
 });
 

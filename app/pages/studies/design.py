@@ -34,12 +34,14 @@ from app.studies.points import BaseRequest
 from app.studies.price import damages
 from app.studies.requests import Overrides
 from app.studies.runner import Line
+from app.studies.tolerances import class_tolerances
 
 PAIRS = 4  # of machines in a sample, default of the page; chosen so that it answers in a minute or two
 SAMPLES = 4  # independent samples of machines; the scatter of their means gives the error of a probability
 EVALUATIONS = 24  # default of the largest number of evaluations on the page; chosen
 STEP_UM = 0.5  # the page rounds the best correction to multiples of this step
 SLOPE, CROWNING = "modifications.helix_slope_um", "modifications.lead_crowning_um"
+QUALITY = "gears.quality_class"
 TIP, ROOT = "modifications.tip_relief_um", "modifications.root_relief_um"
 SLOPE_2, CROWNING_2 = "modifications.second_helix.helix_slope_um", "modifications.second_helix.lead_crowning_um"
 HELICES = ((SLOPE, CROWNING), (SLOPE_2, CROWNING_2))  # fields of the correction of each helix, in the order of Z
@@ -220,7 +222,7 @@ class DesignPage(UnitPage):
             (
                 Link("Open the unit ground so", self.address(at)),
                 Link("Its report", self.address(at, "/report")),
-                Link("One report of all steps", self.address(at, "/report", extent=WITH_PAIR)),
+                Link("One report of all steps", self.address(at | self._exactly(price), "/report", extent=WITH_PAIR)),
                 Link("Its worst corners", self.address(at, f"/{CORNERS.name}")),
             ),
             first=(
@@ -230,6 +232,11 @@ class DesignPage(UnitPage):
             ),
             answer="" if price is None else price_verdict(price),
         )
+
+    def _exactly(self, price: Line | None) -> Overrides:
+        """Return the class to which the gears of a report are ground, unless the case has one."""
+        own = value_at(self.asked.body, QUALITY)
+        return {} if price is None or own or not price["coarsest_class"] else {QUALITY: price["coarsest_class"]}
 
     @property
     def _where(self) -> str:
@@ -274,7 +281,7 @@ class DesignPage(UnitPage):
             own = next(row for row in price["classes"] if row["quality_class"] == price["reference_class"])
             chances = (chance_text(price["as_described"]), chance_text(own))
             rows.append((f"probability of damage, flanks of class {price['reference_class']}", *chances, ""))
-            rows.append(("probability of damage, nominal values", "–", chance_text(price["nominal"]), ""))
+            rows.append(("probability of damage, only the limits scatter", "–", chance_text(price["nominal"]), ""))
         if None not in {before, after} and (after < before if output.view.greatest_is_best else after > before):
             note = (
                 "With the inputs as described the result is worse than before. The reason is that the correction is "
@@ -304,9 +311,10 @@ def grinding_sheet(case: SolvedCase, at: Overrides | None = None, price: Line | 
     """Return the sheet for the grinder: gear, place on the flank, amount and tolerance of each correction.
 
     `at` are the corrections to grind, beside those of the case; None: the corrections of the case itself. With the
-    price of a tolerance, that of a slope is of the coarsest class that is exact enough.
+    price of a tolerance, that of a slope is of the coarsest class that is exact enough; without it, of the gears' own.
     """
-    widths = {} if price is None else exact_enough(price)
+    widths = class_tolerances(case.request) if price is None else exact_enough(price)
+    quality = value_at(case.request, QUALITY) if price is None else price["coarsest_class"]
     inputs, faces, request = case.response.inputs, _faces(case), type(case.request)
     tip, wheel_tip = (
         f"tip relief, {shown(length)} mm along the line of action" if length is not None else "tip relief"
@@ -327,7 +335,7 @@ def grinding_sheet(case: SolvedCase, at: Overrides | None = None, price: Line | 
         tolerance = f"± {shown(widths.get(path, leaf.declared.tolerance), 3)}"
         rows.append((gear, feature, place, *before, shown(amount, 4), tolerance, leaf.unit or ""))
     numbered = map(Number, ("grind", "tolerance") if at is None else ("as described", "grind", "tolerance"))
-    by_class = f", that of the helix slope of quality class {price['coarsest_class']}" if price and widths else ""
+    by_class = f"; that of a slope is what both gears together may have in quality class {quality}" if widths else ""
     note = (
         'Only the working flanks are corrected. "Deeper" means that more material is removed. '
         + (f"Corrections are multiples of {STEP_UM:g} µm; the" if at else "The")

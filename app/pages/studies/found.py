@@ -1,7 +1,10 @@
 """What a search has found, in sentences: the answer first, its number beside it, the reason after it."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
+
+import numpy as np
 
 from app.figures.wording import listed, number
 from app.schema.fields import Leaf
@@ -10,6 +13,7 @@ from app.studies.runner import Line
 
 DIGITS = 4  # significant digits of an answer; the search finds more, but no input is known better
 FURTHER = 4.0  # how much longer the range is made to search on, in ranges; above zero the end is multiplied by it
+LEVEL = 0.05  # a curve levels off if it changes by less than this share of its range in the last quarter
 ENDS = {"min": "the lower end of the range", "max": "the upper end of the range"}
 
 
@@ -21,6 +25,7 @@ class Found:
     output: Leaf
     header: Line
     end: Line
+    points: Sequence[Line] = ()
 
     def value(self, at: Any) -> str:
         """Return a value of the field with its unit."""
@@ -56,8 +61,24 @@ class Found:
         if end == "max":
             ends = high, min(FURTHER * high if low >= 0.0 else high + FURTHER * (high - low), most)
         else:
-            ends = max(low / FURTHER if least >= 0.0 else low - FURTHER * (high - low), least), low
+            ends = (
+                max(low / FURTHER if least >= 0.0 else low - FURTHER * (high - low), 0.0 if low > 0.0 else least),
+                low,
+            )
         return ends if ends[0] < ends[1] and not self.field.options else None
+
+    @property
+    def levels_off(self) -> bool:
+        """Whether the curve ends flat beside the nearest point: its last quarter adds hardly anything."""
+        nearest, find = self.end["nearest"], self.header["find"]
+        known = sorted((each["at"], each["out"][0]) for each in self.points if each["out"][0] is not None)
+        if not nearest or not nearest["end"] or self.header["extreme"] or find["min"] is None or len(known) < 4:
+            return False
+        quarter = (find["max"] - find["min"]) / 4
+        inner = find["max"] - quarter if nearest["end"] == "max" else find["min"] + quarter
+        places, outs = zip(*known, strict=True)
+        before = float(np.interp(inner, places, outs))
+        return abs(float(nearest["out"]) - before) < LEVEL * float(np.ptp(outs))
 
     def answer(self) -> str:
         """Return the answer to the question of the search."""
@@ -150,6 +171,7 @@ class Found:
         nearest, find = self.end["nearest"], self.header["find"]
         span = f"from {self.value(find['min'])} to {self.value(find['max'])}"
         where = f", {ENDS[nearest['end']]}" if nearest["end"] else ""
+        where += ", where it levels off" if self.levels_off else ""
         return (
             f"No answer {span}: the nearest {self.output.title} is {self.reached(nearest['out'])}, at "
             f"{self.named(nearest['at'])}{where}."

@@ -12,6 +12,7 @@ from app.pages.typesetting import lasting, shown
 from app.studies.price import MICROPITTING, SCUFFING
 from app.studies.requests import Overrides
 from app.studies.runner import LONG_S, Line
+from app.studies.statistics import MODERATE
 from app.studies.uncertainty import quantities_of
 
 NAMED = 8  # inputs in the table of what dominates
@@ -30,6 +31,16 @@ def exact_enough(found: Line) -> Overrides:
 
 def price_verdict(found: Line) -> str:
     """Say how exactly it must be ground: verdict, number, reason."""
+    if found["exact"]["bounds"][1] >= MODERATE:
+        chance = chance_text(found["exact"])
+        return (
+            f"Not safe however exactly it is ground: with exact flanks damage is {chance} probable. Change oil, relief "
+            f"or geometry first. {_by_class(found)}"
+        )
+    return _by_class(found)
+
+
+def _by_class(found: Line) -> str:
     rows = {row["quality_class"]: row for row in found["classes"]}
     exact, coarsest = chance_text(found["exact"]), found["coarsest_class"]
     if coarsest == max(rows) and not any(row["more"] for row in rows.values()):

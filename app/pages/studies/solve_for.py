@@ -45,8 +45,8 @@ class SolveForPage(StudyPage):
     link = FIND
     question = "find an input"
     about = (
-        "One field is sought: the value at which a result is as wanted, or least, or greatest. All answers in the "
-        "range are found, and the curve on which they lie is shown."
+        "One field is sought: the value at which a result is as wanted, or least, or greatest. Every place where the "
+        "curve passes the value is found; two answers between neighbouring points of the scan need more points."
     )
     figures = ("curve", "oils")
     grows = True
@@ -126,7 +126,7 @@ class SolveForPage(StudyPage):
         points, end = [line for line in lines if line["type"] == "point"], lines[-1]
         if end["type"] != "end":
             return Result("", self._figures(points, None))
-        found = Found(self.leaf, self.output, lines[0], end)
+        found = Found(self.leaf, self.output, lines[0], end, points)
         remarks = [f"{remark}." for remark in end["remarks"]]
         remarks += [f"No solution {found.span(gap)}: {gap['reason']}." for gap in end["gaps"]]
         return Result(
@@ -153,7 +153,8 @@ class SolveForPage(StudyPage):
         ]
         nearest = end["nearest"]
         is_best_at_end = len(end["answers"]) == 1 and found.header["extreme"] and not self.study.oils
-        if nearest and nearest["end"] and not end["constant"] and (not links or is_best_at_end):
+        is_far = not links and not found.levels_off
+        if nearest and nearest["end"] and not end["constant"] and (is_far or is_best_at_end):
             links += self._further(found.beyond(nearest["end"]))
         return links
 

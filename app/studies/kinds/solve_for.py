@@ -100,12 +100,21 @@ class Track(NamedTuple):
             return self.high if place else self.low
         if self.scale == "log":
             return exp(log(self.low) + place * (log(self.high) - log(self.low)))
-        return self.low + place * (self.high - self.low)
+        value = self.low + place * (self.high - self.low)
+        return 0.0 if place == self._zero else value
+
+    @property
+    def _zero(self) -> float | None:
+        """The place of zero inside a linear range: what acts to both sides may have a narrow peak there."""
+        if self.scale != "linear" or self.low is None or self.high is None or not self.low < 0.0 < self.high:
+            return None
+        return self.low / (self.low - self.high)
 
     def scan(self, count: int) -> tuple[float, ...]:
         """Return the places of the scan: all of a short list, else `count` of them or a few more in a list."""
         if not self.listed:
-            return tuple(np.linspace(0.0, 1.0, count).tolist())
+            zero = [] if self._zero is None else [self._zero]
+            return tuple(np.unique([*np.linspace(0.0, 1.0, count), *zero]).tolist())
         last = len(self.listed) - 1
         if self.scale == "oils" or last < LIST_SCANNED * count:
             return tuple(map(float, range(last + 1)))

@@ -9,7 +9,6 @@ import pytest
 from benchmarks.published.pahl import pahl_coupling
 from solvers.coupling.crowning import (
     at_misalignment,
-    crowning_drop,
     crowning_state,
     crowning_window,
     recommend,
@@ -151,7 +150,7 @@ def test_a_ratio_is_a_radius_and_a_drop() -> None:
     coupling = Coupling(80, 3e-3, face_width=32e-3, crowning_ratio=15.6)
     geometry = tooth_geometry(coupling)
     assert geometry.crowning_radius == pytest.approx(1.872)
-    drop = crowning_drop(coupling, geometry)
+    drop = geometry.crowning_drop
     assert drop == pytest.approx(25e-6, rel=0.01)
     infeed = geometry.crowning_radius - (geometry.crowning_radius**2 - 0.016**2) ** 0.5  # of the cutter's circle
     assert drop == pytest.approx(infeed * tan(coupling.pressure_angle), rel=1e-4)
