@@ -294,6 +294,47 @@ def test_contact_track_is_as_wide_as_the_hertz_contact() -> None:
     assert {level.value for level in panel.levels} == {half, -half}
 
 
+def test_contact_that_leaves_the_face_is_told_apart() -> None:
+    _, answer = solved("starter-coupling-at-its-limits")
+    data = figure("starter-coupling-at-its-limits", "contact-track")
+    (panel,) = data.panels
+    edge = answer.derived.face_width_mm / 2
+    contact, above, below = panel.ribbons
+    assert np.nanmax(np.abs([contact.low, contact.high])) == pytest.approx(edge)
+    assert np.nanmin(above.low) == pytest.approx(edge)
+    assert np.nanmax(below.high) == pytest.approx(-edge)
+    assert f"reaches {np.nanmax(above.high):.1f} mm from the middle; the face ends at {edge:g} mm" in data.finding
+
+
+def test_no_crowning_serves_because_two_bounds_of_the_ratio_contradict_each_other() -> None:
+    data = figure("starter-coupling-crowning-infeasible", "crowning-scan")
+    oil = data.panels[1]
+    (leaves,) = [level.value for level in oil.levels if level.vertical and level.limit]
+    needed = float(np.interp(0.0, -np.log(oil.lines[0].y), oil.lines[0].x))
+    told = [float(number) for number in re.findall(r"[0-9.]+[0-9]", data.finding)]
+    assert told == [pytest.approx(leaves, abs=0.05), pytest.approx(needed, rel=5e-3)]
+    assert leaves < needed
+
+
+def test_a_coefficient_of_friction_without_meaning_is_not_stated() -> None:
+    assert "μ has no meaning" in figure("xue-line-contact-isothermal", "contact").finding
+    assert "μ = 0.047" in figure("xue-line-contact-newtonian", "contact").finding
+
+
+def test_the_mach_map_tells_what_is_marked_and_what_decides() -> None:
+    _, answer = solved("milian-case-1")
+    data = figure("milian-case-1", "mach-map")
+    marked = max(float(mark.text) for panel in data.panels for mark in panel.marks)
+    assert f"up to {marked:g} in the slices (marked), 1.08 at the ends" in data.finding
+    assert f"{answer.choking.outflow_mach:.3g} outwards (choked)" in data.finding
+
+
+def test_a_given_friction_and_a_point_below_the_scale_are_named() -> None:
+    assert figure("pahl-z-arrangement", "friction-regime").finding.endswith("given: μ = 0.2, whatever the area")
+    (mark,) = figure("starter-coupling-at-its-limits", "friction-regime").panels[0].marks
+    assert mark.text.endswith("Tr = 0, below the scale")
+
+
 @pytest.mark.ci
 def test_choking_scan_repeats_the_pumping_endpoint_and_crosses_its_limits_at_the_speeds_found() -> None:
     _, answer = solved("milian-case-1-choking")
@@ -567,10 +608,11 @@ def test_the_flank_is_as_hot_as_the_answer_says_and_shows_the_lines_that_are_che
     assert mark.x == pytest.approx(answer.flash.blok_at_face_mm, abs=panel.x.limits[1] / 100)
     lines = {line.title: line for line in panel.lines}
     assert (lines["feature line"].x[-1], lines["feature line"].y[-1]) == (panel.x.limits[1], 1.0)
-    assert ("hottest profile" in lines) == (answer.hottest_path is not None)
+    solved_at, by_formula = answer.flash.thermal_ehl_at_face_mm, answer.flash.blok_at_face_mm
+    hottest = "hottest profile" if solved_at is None else "hottest profile by thermal EHL"
+    assert set(lines) == ({"feature line"} if answer.hottest_path is None else {"feature line", hottest})
     if answer.hottest_path is not None:
-        solved_at, by_formula = answer.flash.thermal_ehl_at_face_mm, answer.flash.blok_at_face_mm
-        assert lines["hottest profile"].x[0] == (by_formula if solved_at is None else solved_at)
+        assert lines[hottest].x[0] == (by_formula if solved_at is None else solved_at)
 
 
 @pytest.mark.parametrize("name", ["starter-industrial-scuffing", "xue-pair-1-scuffing"])

@@ -1,19 +1,36 @@
 """Figures of the coupling: friction map, loads, motion, thrust, losses, orbit of the sleeve, recommended crowning."""
 
 from dataclasses import replace
+from functools import cache, partial
 from itertools import pairwise
 from math import degrees, exp, inf, log
+from typing import NamedTuple
 
 import numpy as np
 
 from app.figures import parts
-from app.figures.data import Area, Axis, Figure, Hue, Level, Line, Mark, NoFigure, Panel, Ribbon, Role, Row, Span
+from app.figures.data import (
+    Area,
+    Axis,
+    Figure,
+    Hue,
+    Level,
+    Line,
+    Mark,
+    NoFigure,
+    Panel,
+    Ribbon,
+    Role,
+    Row,
+    Span,
+    Values,
+)
 from app.figures.declaration import Declaration, present
 from app.figures.units import UM, axis
 from app.figures.wording import number, percent
-from solvers.coupling.crowning import Recommendation
+from solvers.coupling.crowning import Recommendation, crowning_state, crowning_window
 from solvers.coupling.inputs import CouplingInputs, RecommendationInputs
-from solvers.coupling.lubrication import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES, friction_regime
+from solvers.coupling.lubrication import CAPACITY_BOUNDARIES, OVERLAP_BOUNDARIES, friction_regime, static_friction
 from solvers.coupling.results import CouplingResult, Orbit, OrbitResult
 
 TINTS = {"full": Hue.GREEN, "unstable": Hue.PURPLE, "transition": Hue.ORANGE, "boundary": Hue.VERMILLION}
@@ -21,7 +38,7 @@ MAP_ENDS = {"overlap": (0.1, 10.0), "capacity": (0.01, 10.0)}  # ends of the axe
 RISING = "1.2"  # the paper prints one value for this area, to which the law of the answer rises from area 1.1
 
 
-def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
+def friction_map(inputs: CouplingInputs, result: CouplingResult) -> Figure:
     """Draw the coupling as a point in the map of friction conditions."""
     lubrication = result.lubrication
     regime, point = lubrication.regime, (lubrication.contact_overlap, lubrication.load_capacity_coefficient)
@@ -32,7 +49,7 @@ def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
     at = min(max(overlap, across[0]), across[1]), min(max(capacity, up[0]), up[1])
     distance = regime.distance_to_boundary
     away = "" if distance is None else f", a factor {number(exp(distance))} from the next area"
-    texts = ("∞" if value is None else number(value) for value in point)
+    texts = (_text(value) for value in point)
     panel = Panel(
         x=replace(x, title=f"{x.title} (right: worse supply of oil)"),
         y=replace(y, title=f"{y.title} (up: stronger film)"),
@@ -40,8 +57,16 @@ def friction_map(_: CouplingInputs, result: CouplingResult) -> Figure:
         lines=[] if distance is None else [_to_boundary(*at, distance)],
         marks=[Mark(*at, "Pu = {}\nTr = {}".format(*texts))],
     )
-    finding = f"area {regime.area}, {regime.name}{away}; μ = {number(lubrication.friction_coefficient)}"
-    return Figure(finding, [panel])
+    used = number(lubrication.friction_coefficient)
+    friction = f"μ = {used}" if inputs.friction.coefficient is None else f"given: μ = {used}, whatever the area"
+    return Figure(f"area {regime.area}, {regime.name}{away}; {friction}", [panel])
+
+
+def _text(value: float | None) -> str:
+    """Return a coordinate of the coupling in the map, and where it is if the logarithmic axis cannot show it."""
+    if value is None:
+        return "∞, beyond the scale"
+    return number(value) if value > 0.0 else f"{number(value)}, below the scale"
 
 
 def _around(which: str, value: float) -> tuple[float, float]:
@@ -99,6 +124,7 @@ QUARTERS = tuple(45.0 * count for count in range(9))
 ROTOR = axis(Orbit, "rotor_angle", limits=(0.0, 360.0), ticks=QUARTERS)
 TOOTH = Axis("tooth position (tilt at 90° and 270°)", "°", limits=(0.0, 360.0), ticks=QUARTERS, symbol="φ")
 TILTS = [Span(82.0, 98.0, ""), Span(262.0, 278.0, "")]  # marks at 90° and 270°, wide enough to be seen
+CONTINUOUS = "limit in continuous running"
 ORBIT_SOURCE = "Pahl 1978, Fig. 5"
 CONSTRAINTS = {
     "contact_overlap": "the overlap cannot fall below 1",
@@ -147,8 +173,29 @@ def orders(_: CouplingInputs, result: OrbitResult) -> Figure:
     return Figure(f"strongest at order {int(np.argmax(both)) + 1}" if both.any() else "no force", [panel])
 
 
-def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figure:
-    """Draw curves over the crowning ratio: the least load capacity and the largest contact overlap at each ratio."""
+class Bounds(NamedTuple):
+    """Bounds that exclude every crowning ratio: the least, what needs it, the largest with the contact on the face."""
+
+    low: float
+    need: str
+    high: float
+
+
+def crowning_bounds(inputs: RecommendationInputs, result: Recommendation) -> Bounds | None:
+    """Find the bounds of the crowning ratio that contradict each other; None if another limit decides."""
+    if result.failed_constraint != "edge_contact":
+        return None
+    state = cache(partial(crowning_state, inputs))
+    low, high, _ = crowning_window(state)
+    oil = state(low).overlap > state(low).pressure and state(low).overlap > state(low).width
+    return Bounds(low, "the supply of oil" if oil else "Hertz's theory", high)
+
+
+def crowning_scan(inputs: RecommendationInputs, result: Recommendation, bounds: Bounds | None) -> Figure:
+    """Draw curves over the crowning ratio: the least load capacity and the largest contact overlap at each ratio.
+
+    If no ratio serves because its `bounds` contradict each other, a limit shows where the contact leaves the face.
+    """
     scan, best = result.scan, result.crowning_ratio
     ratio, capacity = scan.crowning_ratio, scan.min_load_capacity_coefficient
     if not ratio.size:
@@ -159,10 +206,14 @@ def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figur
     strength = axis(scan, "min_load_capacity_coefficient", log=True, limits=(top / 1e4, top))
     supply = axis(scan, "max_contact_overlap", log=True)
     choice, marks = list[Level](), list[Mark]()
+    if bounds is not None:
+        choice.append(Level(bounds.high, "contact off the face →", limit=True, vertical=True))
     inside = ratio[np.array(scan.feasible, dtype=bool)].tolist()
     if best is None:
         failed = result.failed_constraint or ""
         finding = f"no crowning serves this range: {CONSTRAINTS.get(failed, failed.replace('_', ' '))}"
+        if bounds is not None:
+            finding += f" above ε = {number(bounds.high)}, but {bounds.need} needs more than {number(bounds.low)}"
     else:
         least = present(result.min_load_capacity_coefficient)
         most = max(present(result.at_min).contact_overlap, present(result.at_max).contact_overlap)
@@ -175,12 +226,18 @@ def crowning_scan(inputs: RecommendationInputs, result: Recommendation) -> Figur
     window = [Span(min(inside), max(inside), "feasible")] if inside else []
     areas = [Level(bound, f"Tr = {bound:g}") for bound in CAPACITY_BOUNDARIES]
     ends = Level(OVERLAP_BOUNDARIES[0], "Pu = 1: supply of oil ends", limit=True)
-    film = parts.curve(x, strength, ratio, capacity, levels=[*areas, *choice], spans=window)
+    film = parts.curve(x, strength, ratio, capacity, levels=[*areas, *parts.unnamed(choice)], spans=window)
     oil = parts.curve(
-        x, supply, ratio, scan.max_contact_overlap, Hue.GREEN, levels=[ends, *choice], spans=parts.unnamed(window)
+        x,
+        supply,
+        ratio,
+        scan.max_contact_overlap,
+        Hue.GREEN,
+        levels=[ends, *choice],
+        spans=parts.unnamed(window),
     )
-    low, high = degrees(inputs.min_misalignment), degrees(inputs.max_misalignment)
-    title = f"Crowning for {number(low)}° to {number(high)}°"
+    least_tilt, most_tilt = (number(degrees(tilt)) for tilt in (inputs.min_misalignment, inputs.max_misalignment))
+    title = f"Crowning for {least_tilt}° to {most_tilt}°"
     return Figure(finding, [replace(film, marks=marks), oil], title=title)
 
 
@@ -190,7 +247,13 @@ ORBIT_FIGURES = (
     Declaration("orders", "Orders of the sleeve's inertia force", ORBIT_SOURCE, orders),
 )
 RECOMMENDATION_FIGURES = (
-    Declaration("crowning-scan", "Crowning for a range of misalignment", "Pahl 1978, conclusion", crowning_scan),
+    Declaration(
+        "crowning-scan",
+        "Crowning for a range of misalignment",
+        "Pahl 1978, conclusion",
+        crowning_scan,
+        compute=crowning_bounds,
+    ),
 )
 
 
@@ -215,7 +278,7 @@ def tooth_loads(inputs: CouplingInputs, result: CouplingResult) -> Figure:
 def tooth_motion(_: CouplingInputs, result: CouplingResult) -> Figure:
     """Draw sliding velocity, hydrodynamic velocity and tangential displacement of a tooth over a revolution."""
     kinematics, limit = result.kinematics, result.limits.sliding_velocity_limit
-    curves, lasting = kinematics.curves, Level(limit, f"lasting limit {number(limit, 'm/s')}", limit=True)
+    curves, lasting = kinematics.curves, Level(limit, f"{CONTINUOUS} {number(limit, 'm/s')}", limit=True)
 
     def panel(name: str, title: str, hue: Hue, *levels: Level) -> Panel:
         y, marked = axis(curves, name, title), bool(levels)
@@ -229,7 +292,7 @@ def tooth_motion(_: CouplingInputs, result: CouplingResult) -> Figure:
         panel("tangential_displacement", "tangential displacement, that loads the tooth", Hue.GREEN),
     ]
     share = percent(kinematics.max_sliding_velocity / limit)
-    return Figure(f"sliding reaches {share} of its lasting limit; least film velocity near the tilt positions", panels)
+    return Figure(f"sliding reaches {share} of its {CONTINUOUS}; least film velocity near the tilt positions", panels)
 
 
 def contact_track(_: CouplingInputs, result: CouplingResult) -> Figure:
@@ -241,12 +304,27 @@ def contact_track(_: CouplingInputs, result: CouplingResult) -> Figure:
         x=TOOTH,
         y=axis(curves, "contact_position", "position on the hub tooth from its middle", magnitude=False),
         lines=[Line("middle", curves.angle, position)],
-        ribbons=[Ribbon("contact", curves.angle, position - half, position + half)],
+        ribbons=_ribbons(curves.angle, position - half, position + half, edge),
         levels=[Level(end, "edge of the face", limit=True) for end in (edge, -edge)],
     )
     overlap, reach = lubrication.contact_overlap, float(np.abs(position).max()) + half
     supply = "without travel no oil comes in" if overlap is None else f"overlap Pu = {number(overlap)}"
-    return Figure(f"contact reaches {number(reach, 'mm')} of {number(edge, 'mm')} to the edge; {supply}", [panel])
+    ends = f"contact reaches {number(reach, 'mm')} from the middle; the face ends at {number(edge, 'mm')}"
+    return Figure(f"{ends}; {supply}", [panel])
+
+
+def _ribbons(angle: Values, low: Values, high: Values, edge: float) -> list[Ribbon]:
+    """Return the contact on the face, and its parts beyond the ends of the face."""
+    shares = (
+        ("contact", np.maximum(low, -edge), np.minimum(high, edge), Hue.BLUE),
+        ("off the face", np.maximum(low, edge), high, Hue.VERMILLION),
+        ("off the face", low, np.minimum(high, -edge), Hue.VERMILLION),
+    )
+    return [
+        Ribbon(title, angle, np.where(bottom < top, bottom, np.nan), np.where(bottom < top, top, np.nan), hue)
+        for title, bottom, top, hue in shares
+        if (bottom < top).any()
+    ]
 
 
 def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
@@ -255,14 +333,15 @@ def axial_thrust(inputs: CouplingInputs, result: CouplingResult) -> Figure:
     rows = [
         Row("thrust", thrust.force, Hue.BLUE, (thrust.lower_bound, thrust.upper_bound)),
         Row("if all teeth carried alike", thrust.uniform_load_force, Hue.GREY),
-        Row("breakaway, coaxial at rest", thrust.breakaway_force, Hue.ORANGE),
+        Row(f"breakaway at rest, μ = {number(static_friction(inputs.friction))}", thrust.breakaway_force, Hue.ORANGE),
     ]
     if thrust.self_induced is not None:
         rows += [
             Row("self-induced", thrust.self_induced.force, Hue.PURPLE),
             Row("self-induced, one-pair model", thrust.self_induced.simple_model_force, Hue.GREY),
         ]
-    limit = Level(thrust.coaxial_limit, "coaxial limit", limit=True, vertical=True)
+    running = f"coaxial limit in motion, μ = {number(result.lubrication.friction_coefficient)}"
+    limit = Level(thrust.coaxial_limit, running, limit=True, vertical=True)
     forces = Panel(x=axis(thrust, "force", "thrust"), y=Axis("thrust"), rows=rows, levels=[limit])
     y = axis(curves, "sliding_velocity", "sliding velocity along the tooth")
     motion = Panel(

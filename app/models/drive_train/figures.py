@@ -362,14 +362,20 @@ def face_heat(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     if along.amplification is None:
         return Figure(f"{decisive(result)}unstable: one end of the face takes the load and heats itself", panels)
     factors = result.load.face_load_factor, even.face_load_factor
-    raised = "" if None in factors else f", K_Hβ {number(factors[0] or 0.0)} instead of {number(factors[1] or 0.0)}"
-    times = number(along.amplification)
-    return Figure(f"{decisive(result)}heat multiplies misalignment {times} times{raised}", panels)
+    spread = ""
+    if None not in factors:
+        now, before = (number(factor or 0.0) for factor in factors)
+        spread = f", K_Hβ stays {now}" if now == before else f", K_Hβ from {before} to {now}"
+    change = "raises" if along.amplification >= 1.0 else "lowers"
+    by = number(along.amplification)
+    return Figure(f"{decisive(result)}heat {change} the misalignment by a factor of {by}{spread}", panels)
 
 
 def where_heat_goes(_: DriveTrainInputs, result: DriveTrainResult) -> Figure:
     """Draw the heat that the losses supply, the heat that leaves the gears, and the heat that leaves the unit."""
-    return heat_balance.where_heat_goes(heat_balance.heat_of(result.heat))
+    figure = heat_balance.where_heat_goes(heat_balance.heat_of(result.heat))
+    apart = "; without the couplings' loss" if result.losses.coupling else ""
+    return replace(figure, finding=f"{figure.finding}{apart}")
 
 
 def temperatures(inputs: DriveTrainInputs, result: DriveTrainResult) -> Figure:

@@ -10,6 +10,7 @@ from app.figures.wording import number, percent
 from solvers.contact.ehl import LineContactInputs, LineContactResult
 
 ACROSS = "position across the contact, along the flow"
+MEANT = 1.0  # chosen; a larger coefficient of friction has no meaning: even dry steel has at most about 1
 THICK = 3.0  # upper end of the film axis divided by the central film thickness; thicker films are in inlet and outlet
 
 
@@ -40,7 +41,9 @@ def contact(_: LineContactInputs, result: LineContactResult) -> Figure:
         panels.append(Panel(x=x, y=y, lines=lines, spans=plain))
         finding += f"; up to {number(result.temperature.film_max, '°C')}"
     if result.friction is not None:
-        finding += f"; μ = {number(result.friction.coefficient)}"
+        coefficient = result.friction.coefficient
+        reason = "" if result.temperature is not None else " without heating and without a limit of the shear stress"
+        finding += f"; μ = {number(coefficient)}" if coefficient <= MEANT else f"; μ has no meaning{reason}"
     return Figure(finding, panels)
 
 

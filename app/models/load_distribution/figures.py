@@ -13,7 +13,7 @@ from app.figures.data import ORDER, Axis, Figure, Hue, Level, Line, Map, Mark, N
 from app.figures.declaration import Declaration
 from app.figures.sketches import points_of_contact, transverse_section
 from app.figures.units import MM, axis
-from app.figures.wording import number, percent
+from app.figures.wording import listed, number, percent
 from solvers.drive_train.results import FlankMaps
 from solvers.gears.inputs import GearPairInputs
 from solvers.gears.pair import meshing_path
@@ -167,7 +167,7 @@ def transmission_error(_: LoadDistributionInputs, result: LoadDistribution) -> F
 
 
 def path_of_contact(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
-    """Draw line load, pressure and sliding along the feature line."""
+    """Draw line load, pressure and sliding along the feature line, which is the diagonal of the flank."""
     curves, psi, pressure = result.feature_line, result.feature_line.psi, result.pressure.max
     points = path_points(inputs.gears)
     plain = parts.unnamed(points)
@@ -178,9 +178,12 @@ def path_of_contact(inputs: LoadDistributionInputs, result: LoadDistribution) ->
         parts.curve(PATH, hertz, psi, curves.pressure, Hue.VERMILLION, marked=True, levels=plain),
         parts.curve(PATH, speed, psi, np.abs(curves.sliding), Hue.GREEN, levels=plain),
     ]
-    finding = f"on the whole flank up to {number(result.load.max_line_load, 'N/mm')}"
+    along = [number(float(np.nanmax(curves.line_load, initial=0.0)), "N/mm")]
+    anywhere = [number(result.load.max_line_load, "N/mm")]
     if pressure is not None:
-        finding += f" and {number(pressure, 'MPa')}"
+        along.append(number(float(np.nanmax(curves.pressure, initial=0.0)), "MPa"))
+        anywhere.append(number(pressure, "MPa"))
+    finding = f"along the diagonal of the flank up to {listed(along)}; on the whole flank up to {listed(anywhere)}"
     unsolved = int(np.isnan(curves.pressure).sum())
     return Figure(NO_LOAD if result.load.max_at is None else finding, panels, unsolved=unsolved)
 
@@ -216,7 +219,8 @@ def load_sharing(inputs: LoadDistributionInputs, result: LoadDistribution) -> Fi
         lines.append(Line("this mesh", curves.psi, curves.load_sharing))
     marks = parts.extreme(lines)
     for mark in marks:
-        finding = f"line load up to {number(mark.y)} times the force per face width, at Ψ = {number(mark.x)}"
+        times = f"{number(mark.y)} times the force per face width"
+        finding = f"line load along the diagonal of the flank up to {times}, at Ψ = {number(mark.x)}"
     if curves.iso_load_sharing is not None:
         lines.append(Line("ISO/TS 6336-20", curves.psi, curves.iso_load_sharing, Hue.GREY, Role.REFERENCE))
     y = axis(curves, "load_sharing", "load sharing factor, w b / F_bt")

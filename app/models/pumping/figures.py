@@ -46,11 +46,19 @@ def mach_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
     """Draw the magnitude of the axial Mach number. A contour shows where the flow is sonic."""
     panels = _maps(inputs, result, "axial_mach", Scale.MAGNITUDE, Level(1.0, "sonic"))
     peak = max(space.peak_axial_mach for _, space in spaces(result))
-    state = f"outflow {result.choking.outflow}, inflow {result.choking.inflow} at the ends"
-    inside = "; supersonic inside" if peak > 1.0 and result.choking.outflow == "not choked" else ""
+    marked = number(max(float(np.nanmax(panel.map.values)) for panel in panels if panel.map is not None))
+    most = number(peak)
+    choking = result.choking
+    outwards = f"{number(choking.outflow_mach)} outwards ({choking.outflow})"
+    inwards = f"{number(choking.inflow_mach)} inwards ({choking.inflow})"
+    inside = "; supersonic inside" if peak > 1.0 and choking.outflow == "not choked" else ""
     uncertain = result.resolution.axial_mach
     doubt = f" ± {percent(uncertain)}" if uncertain > UNCERTAIN else ""
-    return Figure(f"up to {number(peak)}{doubt} in slices and at ends; {state}{inside}", panels, beside=True)
+    largest = f"up to {marked} in the slices (marked), {most}{doubt} at the ends"
+    if marked == most:
+        largest = f"up to {most}{doubt} in the slices (marked) and at the ends"
+    asked = f"the pressures at the ends ask for {outwards} and {inwards}"
+    return Figure(f"{largest}; {asked}{inside}", panels, beside=True)
 
 
 def temperature_map(inputs: PumpingInputs, result: PumpingResult) -> Figure:
@@ -242,7 +250,9 @@ def mass_flow(_: PumpingInputs, result: PumpingResult) -> Figure:
     """
     exits = {gear: _exits(space) for gear, space in spaces(result)}
     still = all(abs(row.value) < NO_FLOW for rows in exits.values() for row in rows)
-    x = Axis("mass flow (net: out; negative: in)", "g/s", limits=(0.0, 1.0) if still else None, symbol="m")
+    x = Axis(
+        "mass flow (negative net flow: in; black: uncertainty)", "g/s", limits=(0.0, 1.0) if still else None, symbol="m"
+    )
     panels = [Panel(x=x, y=Axis("exit"), title=f"spaces of the {gear}", rows=rows) for gear, rows in exits.items()]
     flows = [space.mass_flow for _, space in spaces(result)]
     net = sum(flow.front + flow.rear for flow in flows)
@@ -288,7 +298,7 @@ FIGURES = (
     Declaration("mach-map", "Axial flow in the tooth spaces", "Milian 2004, Eq. 7", mach_map),
     Declaration("peak-pressure", "Highest pressure along the face", "Milian 2004, Eq. 7", peak_pressure),
     Declaration("temperature-map", "Temperature in the tooth spaces", "Milian 2004, Figs. 5, 6", temperature_map),
-    Declaration("pressure-map", "Pressure in the tooth spaces", "Milian 2004, Eqs. 1-4", pressure_map),
+    Declaration("pressure-map", "Pressure in the tooth spaces", "Milian 2004, Eqs. 1–4", pressure_map),
     section(lambda inputs: inputs.setup.gears),
     Declaration("stroke", "One stroke of a tooth space", "Milian 2004, Fig. 3", stroke),
     Declaration("heating", "Where along the face the mist heats the teeth", "Milian 2004, Figs. 5, 6", heating),

@@ -33,7 +33,11 @@ SHOWN_SAFETIES = 4.0  # end of the axis divided by the least factor; greater fac
 
 
 def temperature_on_flank(inputs: ScuffingInputs, result: Scuffing) -> Figure:
-    """Draw Blok's contact temperature over the flank, and the evaluated lines."""
+    """Draw Blok's contact temperature over the flank, and the evaluated lines.
+
+    With solutions by thermal EHL, the profile is the one that these solutions call the hottest. It may lie beside the
+    hottest place by Blok's formula.
+    """
     flank, width = result.flank, inputs.distribution.gears.face_width
     contact, largest = result.contact_temperature, result.flash.blok_max
     shown = axis(flank, "flash_temperature", "flash temperature")
@@ -45,12 +49,14 @@ def temperature_on_flank(inputs: ScuffingInputs, result: Scuffing) -> Figure:
     lines = [Line("feature line", values([0.0, width / MM]), values([0.0, 1.0]), Hue.SKY)]
     if (face := hottest_face(result)) is not None:
         across = values([face] * 2)
-        lines.append(Line("hottest profile", across, values([0.0, 1.0]), Hue.SKY, Role.REFERENCE))
+        solved = "" if result.flash.thermal_ehl_at_face is None else " by thermal EHL"
+        lines.append(Line(f"hottest profile{solved}", across, values([0.0, 1.0]), Hue.SKY, Role.REFERENCE))
     if not largest:
         return Figure("no flash temperature", [replace(panel, lines=lines)])
     finding = f"{number(largest, 'K')} above the bulk"
     if contact is not None and contact.blok_max is not None:
-        finding = f"up to {number(contact.blok_max, '°C', digits=4)}, {finding}"
+        by = "" if result.flash.thermal_ehl_at_face is None else " by Blok (marked)"
+        finding = f"up to {number(contact.blok_max, '°C', digits=4)}{by}, {finding}"
     on_line = result.flash.feature_line_max
     if on_line is not None and on_line < largest:
         finding = f"{finding}; {number(on_line, 'K')} on the feature line"

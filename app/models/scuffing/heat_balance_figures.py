@@ -34,6 +34,7 @@ SUPPLY = {
     "oil jets": "oil jets",
 }
 AWAY = {"drain": "oil of the gears", "oil of the bearing": "oil of the bearings", "surroundings": "casing, to the air"}
+DRAINED, DRAINED_MIXED = "mist and drained oil", "drained oil, gears and bearings"
 BY_GEAR = {
     "oil on the flanks": ("oil on loaded flanks", Hue.BLUE),
     "oil on the unloaded flanks": ("oil on unloaded flanks", Hue.SKY),
@@ -102,11 +103,12 @@ def temperatures(heat: Heat, oil: float) -> Figure:
         Row("pinion, body", heat.pinion.body, Hue.ORANGE),
         Row("wheel, loaded flank", heat.wheel.flank, Hue.VERMILLION, None if band is None else band.wheel_flank),
         Row("wheel, body", heat.wheel.body, Hue.ORANGE),
-        Row("mist, drain of the gears", heat.mist, Hue.SKY),
+        Row("mist, oil that leaves the gears" if heat.bearings else DRAINED, heat.mist, Hue.SKY),
         *(
             Row(f"bearing {place}, oil that leaves", bearing.outlet, Hue.BLUE)
             for place, bearing in enumerate(heat.bearings, start=1)
         ),
+        *([Row(DRAINED_MIXED, heat.drain, Hue.GREEN)] if heat.bearings else []),
         *([] if heat.casing is None else [Row("casing", heat.casing, Hue.GREY)]),
     ]
     levels = [Level(oil, f"oil {number(oil, '°C')}", vertical=True)]
@@ -141,7 +143,7 @@ def what_the_flow_does(heat: Heat, curve: FlowCurve) -> list[Panel]:
     lines = [
         Line("pinion flank", flow, curve.pinion_flank - KELVIN, Hue.VERMILLION),
         Line("wheel flank", flow, curve.wheel_flank - KELVIN, Hue.ORANGE),
-        Line("drain", flow, curve.drain - KELVIN, Hue.BLUE),
+        Line(DRAINED_MIXED if heat.bearings else DRAINED, flow, curve.drain - KELVIN, Hue.BLUE),
     ]
     return [
         Panel(
