@@ -38,7 +38,7 @@ def _overlaid(panel: Panel, other: Panel, name: str) -> Panel:
         "lines": _lines(panel, other, name),
         "bars": _bars(panel, other),
         "rows": _rows(panel, other, name),
-        "levels": [replace(level, name=level.name and f"{level.name}, {name}") for level in levels],
+        "levels": [replace(level, name=level.name and f"{level.name}, {name}", point=False) for level in levels],
         "marks": [replace(mark, text=name, hue=Hue.VERMILLION) for mark in other.marks if panel.areas],
     }
     if other is panel or not any(added.values()):

@@ -152,13 +152,16 @@ class Scale(StrEnum):
 class Level:
     """A straight line across the panel: a limit if `limit` is set, else a reference.
 
-    The value of a `vertical` level is an abscissa; the value of any other level is an ordinate.
+    The value of a `vertical` level is an abscissa; the value of any other level is an ordinate. The name stands beside
+    the line. The names of `points` stand in one row above the axes, and the names of `listed` levels in the legend.
     """
 
     value: float
     name: str
     limit: bool = False
     vertical: bool = False
+    point: bool = False
+    listed: bool = False
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -201,11 +204,12 @@ class Map:
 
 @dataclass(frozen=True, slots=True)
 class Span:
-    """A shaded range of the abscissa. `name` says why the range is shaded."""
+    """A shaded range of the abscissa. `name` says why the range is shaded, in the legend if `listed` is set."""
 
     start: float
     stop: float
     name: str
+    listed: bool = False
 
 
 @dataclass(frozen=True, slots=True)

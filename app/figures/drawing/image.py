@@ -1,5 +1,6 @@
 """Images of figures: the layout on a sheet, and the formats. Equal figures give equal bytes."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from io import BytesIO
 from itertools import combinations, pairwise
@@ -16,7 +17,7 @@ from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
 from app.figures.data import Figure, Panel, ThemeName
-from app.figures.drawing.panels import LINE, draw_panel, legend_lines, place_texts
+from app.figures.drawing.panels import LINE, draw_panel, has_points, legend_lines, place_texts
 from app.figures.drawing.style import DPI, NARROW, TEXT, TITLE, WIDTH, themed
 from app.figures.wording import subscripts
 
@@ -105,7 +106,7 @@ def size(figure: Figure) -> tuple[float, float]:
     """Return width and height of the image in inches."""
     heights = [_height(panel, figure) for panel in figure.panels]
     body = max(heights, default=0.0) if figure.beside else sum(heights) + _gap(figure) * (len(heights) - 1)
-    return _width(figure), _head(figure)[-1] + _heading(figure) + body + _abscissa(figure) + EDGE
+    return _width(figure), _top(figure) + body + _abscissa(figure) + EDGE
 
 
 def _width(figure: Figure) -> float:
@@ -146,6 +147,16 @@ def _heading(figure: Figure) -> float:
     return LINE * TEXT * (names + any(panel.title for panel in figure.panels)) + EDGE / 2
 
 
+def _points(panels: Sequence[Panel]) -> float:
+    """Return the height [in] of the row of names of points above axes."""
+    return LINE * TEXT * any(map(has_points, panels))
+
+
+def _top(figure: Figure) -> float:
+    """Return the height [in] of everything above the first axes."""
+    return _head(figure)[-1] + _heading(figure) + _points(figure.panels if figure.beside else figure.panels[:1])
+
+
 def _shares_abscissa(figure: Figure) -> bool:
     """Return True if the panels stand above one another and have the same abscissa."""
     return not figure.beside and all(panel.x == figure.panels[0].x for panel in figure.panels)
@@ -158,7 +169,7 @@ def _abscissa(figure: Figure) -> float:
 
 def _gap(figure: Figure) -> float:
     """Return the vertical distance between two axes that lie one above the other [in]."""
-    return _heading(figure) + (EDGE / 2 if _shares_abscissa(figure) else _abscissa(figure))
+    return _heading(figure) + _points(figure.panels[1:]) + (EDGE / 2 if _shares_abscissa(figure) else _abscissa(figure))
 
 
 def laid_out(figure: Figure) -> tuple[Sheet, list[Axes]]:
@@ -221,7 +232,7 @@ def _axes(sheet: Sheet, figure: Figure) -> list[Axes]:
     sheet.subplots_adjust(
         left=left / width,
         right=1.0 - right / width,
-        top=1.0 - (_head(figure)[-1] + _heading(figure)) / height,
+        top=1.0 - _top(figure) / height,
         bottom=(_abscissa(figure) + EDGE) / height,
         wspace=between * columns / (width - left - right - between * (columns - 1)),
         hspace=_gap(figure) * rows / sum(heights),

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import product
+from itertools import cycle, product
 from math import copysign, hypot
 from textwrap import fill
 from typing import Any
@@ -17,9 +17,10 @@ from matplotlib.patheffects import withStroke
 from matplotlib.text import Annotation, Text
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocator
 from matplotlib.transforms import Bbox, BboxBase, ScaledTranslation
+from scipy.optimize import isotonic_regression
 
 from app.figures.data import Line, Map, Panel, Role, Row, Scale, Values
-from app.figures.drawing.style import DASHES, LIMIT, STROKES, TEXT, patch, written
+from app.figures.drawing.style import DASHES, LIMIT, REFERENCES, STROKES, TEXT, patch, written
 from app.figures.wording import NOISE, number, without_rounding
 
 FARTHEST_LEVEL = 4.0  # multiple of the range of values; a limit farther away is only named at the edge of the axes
@@ -29,6 +30,7 @@ LEGEND_COLUMNS = 2  # columns of a legend above narrow axes
 LINE = 1.3 / 72.0  # inches; height of a line of text per point of letter size
 NAME_BELOW = 36  # characters per line of the name below narrow axes
 ROW = 0.52  # height of a row's bar divided by the distance between rows
+POINT_REACH, POINT_GAP = 2, 2  # typographic points between the names of points and the axes, and between two names
 LEAST_REACH = 7  # typographic points between a text and its point or vertical line
 ROW_REACH = 3  # typographic points between a horizontal line and its name
 WRONG = 4.0  # cost of a name that is nearer to another horizontal line, or separated from its point by a text
@@ -63,9 +65,10 @@ def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -
     """Draw a panel. The names of its axes have at most `length` characters per line."""
     name = "" if panel.rows else fill(panel.y.label, length)
     axes.set(xscale="log" if panel.x.log else "linear", yscale="log" if panel.y.log else "linear")
-    axes.set_title(panel.title or "", pad=4.0 + 1.3 * TEXT * len(name.splitlines()))
+    points = LINE * TEXT * has_points(panel)  # height of the row of names between the axes and the name of the ordinate
+    axes.set_title(panel.title or "", pad=4.0 + 72.0 * points + 1.3 * TEXT * len(name.splitlines()))
     axes.set_ylabel(name, rotation="horizontal", ha="left", va="bottom")
-    above = axes.transAxes + ScaledTranslation(0.0, 4.0 / 72.0, axes.figure.dpi_scale_trans)
+    above = axes.transAxes + ScaledTranslation(0.0, 4.0 / 72.0 + points, axes.figure.dpi_scale_trans)
     axes.yaxis.set_label_coords(0.0, 1.0, above)
     for axis, quantity in ((axes.xaxis, panel.x), (axes.yaxis, panel.y)):
         axis.set_major_locator(LogLocator(numticks=7) if quantity.log else MaxNLocator(nbins=6, steps=STEPS))
@@ -94,9 +97,11 @@ def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -
     _draw_levels(axes, panel)
     for span in panel.spans:
         shade: Style = {"facecolor": rcParams["grid.color"], "edgecolor": "none", "zorder": 2 if panel.map else 0}
-        axes.axvspan(span.start, span.stop, **shade)
+        listed = {"label": fill(span.name, NAME_LENGTH)} if span.listed and span.name else {}
+        axes.axvspan(span.start, span.stop, **shade, **listed)
         top = (span.start + span.stop) / 2, 1.0
-        _name(axes, span.name, top, axes.get_xaxis_transform(), gid="column", color=rcParams["axes.labelcolor"])
+        if not span.listed:
+            _name(axes, span.name, top, axes.get_xaxis_transform(), gid="column", color=rcParams["axes.labelcolor"])
     _draw_legend(axes, panel, narrow=narrow)
 
 
@@ -107,7 +112,7 @@ def _draw_legend(axes: Axes, panel: Panel, *, narrow: bool) -> None:
         handles.setdefault(str(handle.get_label()), handle)
     if handles and narrow:  # above the name of the ordinate, because there is no room beside the axes
         above = axes.transAxes + ScaledTranslation(
-            0.0, LINE * TEXT * (1 + bool(panel.title)), axes.figure.dpi_scale_trans
+            0.0, LINE * TEXT * (1 + bool(panel.title) + has_points(panel)), axes.figure.dpi_scale_trans
         )
         style: Style = {
             "loc": "lower left",
@@ -125,11 +130,17 @@ def _draw_legend(axes: Axes, panel: Panel, *, narrow: bool) -> None:
 def legend_lines(panel: Panel) -> int:
     """Return the number of lines of the legend above a narrow panel."""
     fills = [*(ribbon.title for ribbon in panel.ribbons), *(shape.title for shape in panel.shapes)]
+    fills += [each.name for each in (*panel.levels, *panel.spans) if each.listed and each.name]
     lines = [*(line.title for line in panel.lines if line.named), *fills]
     bars = [bars.title for bars in panel.bars] if len(panel.bars) > 1 else []
     names = dict.fromkeys([*lines, *bars, *(part.name for row in panel.rows for part in row.parts)])
     rows = -(-len(names) // LEGEND_COLUMNS)
     return rows * max((len(fill(name, NAME_LENGTH).splitlines()) for name in names), default=0)
+
+
+def has_points(panel: Panel) -> bool:
+    """Return True if the names of points stand above the axes."""
+    return any(level.point and level.name for level in panel.levels)
 
 
 def _end(axes: Axes, panel: Panel) -> None:
@@ -319,18 +330,25 @@ def _edges(along: Values, log: bool) -> Values:
 
 
 def _draw_levels(axes: Axes, panel: Panel) -> None:
-    """Draw limits as dashed red lines, references as dotted grey lines, and zero as a grey line."""
+    """Draw limits as dashed red lines, references as dotted grey lines, and zero as a grey line.
+
+    References in the legend differ by their dashes.
+    """
     if panel.map is None and not panel.rows and not panel.y.log and panel.y.limits is None:
         low, high = axes.dataLim.intervaly
         if panel.y.magnitude or low < 0.0 < high:
             line = axes.axhline(0.0, color=rcParams["axes.edgecolor"], linewidth=0.8, zorder=1)
             line.sticky_edges.y.append(0.0)
-    data = axes.dataLim.frozen()
+    data, references = axes.dataLim.frozen(), cycle(REFERENCES)
     for level in panel.levels:
         low, high = data.intervalx if level.vertical else data.intervaly
         quantity, reach = panel.x if level.vertical else panel.y, FARTHEST_LEVEL * (high - low)
         if quantity.log or quantity.limits or low - reach <= level.value <= high + reach:
-            (axes.axvline if level.vertical else axes.axhline)(level.value, **_level_style(level.limit))
+            style = _level_style(level.limit)
+            if level.listed and level.name:
+                style |= {"label": fill(level.name, NAME_LENGTH)}
+                style |= {} if level.limit else {"linestyle": next(references)}
+            (axes.axvline if level.vertical else axes.axhline)(level.value, **style)
     _end(axes, panel)
     # Names are placed from the top down. If two levels are close, the name of the lower level is then below it.
     for level in sorted(panel.levels, key=lambda level: (not level.vertical, -level.value)):
@@ -338,7 +356,12 @@ def _draw_levels(axes: Axes, panel: Panel) -> None:
         below, above = (" ←", " →") if level.vertical else (" ↓", " ↑")
         text = level.name + (below if level.value < low else above if level.value > high else "") * bool(level.name)
         at, color = float(np.clip(level.value, low, high)), _level_style(level.limit)["color"]
-        if level.vertical:
+        if level.listed:
+            continue
+        if level.point:
+            style = {"gid": "point", "ha": "center", "va": "bottom", "bbox": None}
+            _name(axes, level.name, (level.value, 1.0), axes.get_xaxis_transform(), color=color, **style)
+        elif level.vertical:
             _name(axes, text, (at, 1.0), axes.get_xaxis_transform(), gid="column", color=color)
         else:
             _name(axes, text, (1.0, at), axes.get_yaxis_transform(), gid="row", color=color)
@@ -354,7 +377,7 @@ def _name(axes: Axes, text: str, xy: tuple[float, float], xycoords: Any = "data"
     """Write a text on a patch in the background colour, at the point that the text names."""
     style = {"textcoords": "offset points", "in_layout": False, "zorder": 6, "annotation_clip": False, **style}
     if text:
-        axes.annotate(text, xy, (0, 0), xycoords, bbox=patch(), **style)
+        axes.annotate(text, xy, (0, 0), xycoords, **{"bbox": patch(), **style})
 
 
 def _keep_clear(axes: Axes, text: Text, room: Bbox, points: list[Bbox], rings: list[Bbox]) -> None:
@@ -379,6 +402,7 @@ def _keep_clear(axes: Axes, text: Text, room: Bbox, points: list[Bbox], rings: l
 
 def place_texts(axes: Axes, panel: Panel) -> None:
     """Write the texts of areas, and move the texts of points to places clear of other texts."""
+    _place_points(axes)
     points = (axes.transData.transform((mark.x, mark.y)) for mark in panel.marks)
     rings = [Bbox([point - RING, point + RING]) for point in points]
     point = axes.figure.dpi / 72.0
@@ -424,6 +448,19 @@ def place_texts(axes: Axes, panel: Panel) -> None:
         if isinstance(text, Annotation) and text.get_gid() in SIDES:
             curves += _lead(axes, text, size, best, point)
         taken.append(size.translated(*best).padded(2.0 * point))  # leaves space between the patches of two texts
+
+
+def _place_points(axes: Axes) -> None:
+    """Write the names of points in one row above the axes, each over its line. Names that would touch move apart."""
+    names = sorted((text for text in axes.texts if text.get_gid() == "point"), key=lambda text: _point_of(text)[0])
+    if names:
+        at = np.array([_point_of(text)[0] for text in names])
+        point = axes.figure.dpi / 72.0
+        widths = np.array([text.get_window_extent().width for text in names])
+        apart = np.append(0.0, np.cumsum((widths[1:] + widths[:-1]) / 2.0 + POINT_GAP * point))
+        moved = isotonic_regression(at - apart).x + apart  # the least sum of squares of all moves
+        for text, move in zip(names, (moved - at) / point, strict=True):
+            text.set_position((float(move), POINT_REACH))
 
 
 def _point_of(text: Text) -> Values:

@@ -116,7 +116,7 @@ def traces(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     ):
         diameter = 2.0 * np.hypot(gear.base_radius, roll - side) / MM
         points = [
-            Level(2.0 * float(np.hypot(gear.base_radius, at - side)) / MM, point, vertical=True)
+            Level(2.0 * float(np.hypot(gear.base_radius, at - side)) / MM, point, vertical=True, point=True)
             for point, at in points_of_contact(path).items()
         ]
         x = Axis(f"diameter of the {name}", "mm", magnitude=False, symbol="d_y")
@@ -192,17 +192,17 @@ def path_points(gears: GearPairInputs) -> list[Level]:
     """Return vertical lines at the points A to E of the path of contact."""
     path = meshing_path(gears)
     fractions = {name: (roll - path.start) / path.length for name, roll in points_of_contact(path).items()}
-    return [Level(fraction, name, vertical=True) for name, fraction in fractions.items()]
+    return [Level(fraction, name, vertical=True, point=True) for name, fraction in fractions.items()]
 
 
 def stiffness(inputs: LoadDistributionInputs, result: LoadDistribution) -> Figure:
     """Draw the stiffness of one pair of teeth along the path of contact, and the stiffness by ISO 6336-1."""
     stiff, path = result.stiffness, meshing_path(inputs.gears)
-    levels = [Level(stiff.standard_single, f"ISO 6336-1, one pair: {number(stiff.standard_single)}")]
+    levels = [Level(stiff.standard_single, f"ISO 6336-1, one pair: {number(stiff.standard_single)}", listed=True)]
     if stiff.mean_mesh is not None:
-        levels.append(Level(stiff.mean_mesh, f"mean of the loaded mesh: {number(stiff.mean_mesh)}"))
+        levels.append(Level(stiff.mean_mesh, f"mean of the loaded mesh: {number(stiff.mean_mesh)}", listed=True))
     for name, roll in points_of_contact(path).items():
-        levels.append(Level(path.profile_parameter(roll - path.start), name, vertical=True))
+        levels.append(Level(path.profile_parameter(roll - path.start), name, vertical=True, point=True))
     x = axis(stiff.curves, "gamma", "profile parameter", magnitude=False)
     y = axis(stiff.curves, "single", "stiffness of one pair per face width")
     panel = parts.curve(x, y, stiff.curves.gamma, stiff.curves.single, levels=levels)

@@ -241,7 +241,7 @@ def film(inputs: ScuffingInputs, result: Scuffing) -> Figure:
         method = "Dowson and Higginson" if thinnest.thermal_ehl_min is None else "thermal EHL"
         finding = f"λ by {method} = {number(thinnest.thickness_ratio)} at the thinnest: {regime}"
     roughness = float(np.hypot(pair.pinion_material.roughness, pair.wheel_material.roughness)) / UM  # Eq. 28
-    limit = Level(roughness, "λ = 1, film as thick as the roughness", limit=True)
+    limit = Level(roughness, "λ = 1", limit=True)
     y = Axis("film thickness", "µm", symbol="h")
 
     def panel(path: ScuffingPath) -> Panel:
@@ -280,7 +280,7 @@ def friction(inputs: ScuffingInputs, result: Scuffing) -> Figure:
         message = "The friction along the path is computed only by the thermal EHL solution"
         raise NoFigure("closed_form", message, "model.lubrication")
     points, warned = _points(inputs, result), _warned(result.path)
-    levels = points if mean is None else [*points, Level(mean, f"Blok's mean {number(mean)}")]
+    levels = points if mean is None else [*points, Level(mean, f"Blok's mean {number(mean)}", listed=True)]
 
     def panel(y: Axis, curve: str, hues: tuple[Hue, Hue]) -> Panel:
         lines = [
@@ -321,7 +321,7 @@ def _warned(path: ScuffingPath) -> list[Span]:
         if status == "ok_with_warnings":
             places = list(group)
             start, stop = float(edges[places[0]]), float(edges[places[-1] + 1])
-            spans.append(Span(start, stop, "" if spans else WARNED))
+            spans.append(Span(start, stop, "" if spans else WARNED, listed=True))
     return spans
 
 
