@@ -14,10 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.errors import Unprocessable
-from app.figures.wording import NO_BREAK
+from app.figures.wording import NO_BREAK, NOISE
 
 Values = NDArray[np.float64]
 ThemeName = Literal["light", "dark"]
+
+
+FARTHEST_LEVEL = 4.0  # multiple of the range of values; a level of the ordinate farther away is off the scale
 
 
 class Hue(StrEnum):
@@ -246,6 +249,25 @@ class Panel:
     marks: Sequence[Mark] = ()
     equal: bool = False
 
+    @property
+    def off_scale(self) -> list[Level]:
+        """The levels of the ordinate that are not drawn, because they are too far from the values."""
+        shown = [line.y for line in (*self.lines, *self.bars, *self.shapes)]
+        shown += [edge for ribbon in self.ribbons for edge in (ribbon.low, ribbon.high)]
+        shown += [self.map.y] if self.map is not None else []
+        shown.append(np.array([mark.y for mark in self.marks] + [0.0] * self.y.magnitude))
+        finite = np.concatenate(shown)
+        finite = finite[np.isfinite(finite)]
+        if self.y.limits is not None:
+            low, high = self.y.limits
+        elif self.y.log or not finite.size:
+            return []
+        else:
+            low, high = float(finite.min()), float(finite.max())
+            reach = max(FARTHEST_LEVEL * (high - low), NOISE * max(abs(low), abs(high)))
+            low, high = low - reach, high + reach
+        return [level for level in self.levels if not level.vertical and not low <= level.value <= high]
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Figure:
@@ -266,10 +288,11 @@ class Figure:
 
     @property
     def subtitle(self) -> str:
-        """Text below the title: the number of points without a solution, the finding, and the source."""
+        """Text below the title: the points without a solution, the finding, levels off the scale, and the source."""
         gaps = f"{self.unsolved} point{'s' * (self.unsolved > 1)} without solution" if self.unsolved else ""
         finding = re.sub(r"(?<=\d) | (?==)|(?<==) ", NO_BREAK, self.finding)  # keeps numbers with their units
-        parts = (gaps, finding, self.source.replace(" ", NO_BREAK))
+        far = ", ".join(dict.fromkeys(level.name for panel in self.panels for level in panel.off_scale if level.name))
+        parts = (gaps, finding, far and f"off the scale: {far}", self.source.replace(" ", NO_BREAK))
         return f"{NO_BREAK}· ".join(part for part in parts if part)
 
 

@@ -32,6 +32,7 @@ from app.figures.data import (
     Panel,
     Ribbon,
     Row,
+    Span,
     ThemeName,
     values,
 )
@@ -314,13 +315,41 @@ def test_awkward_data_are_drawn(name: str) -> None:
     assert image == draw(placed, "svg")
 
 
-def test_limits_far_from_the_values_are_named_at_the_edge() -> None:
-    """A limit far from the values is named at the edge. An axis up to this limit would flatten the curve."""
+def test_limits_far_from_the_values_are_named_below_the_title() -> None:
+    """A limit far from the values is named below the title. An axis up to this limit would flatten the curve."""
     levels = (Level(300.0, "yield point", limit=True), Level(3.0, "endurance limit", limit=True))
     panel = replace(PANEL, levels=levels, marks=())
     (place,) = places(Figure("", (panel,), title="two peaks"))
     assert 3.0 < place.y[1] < 4.0
-    assert {"yield point ↑", "endurance limit"} <= {text.replace("\n", " ") for text in texts(panel)}
+    assert {"off the scale: yield point", "endurance limit"} <= {*texts(panel)}
+
+
+def test_names_of_points_stand_in_one_row_above_the_axes_and_do_not_touch() -> None:
+    at = {"A": 0.0, "B": 0.4, "C": 0.405, "D": 0.41, "E": 1.0}
+    levels = tuple(Level(value, name, vertical=True, point=True) for name, value in at.items())
+    with themed("light"):
+        _, (axes,) = laid_out(Figure("", (replace(PANEL, levels=levels),), title="two peaks"))
+        found = {text.get_text(): text.get_window_extent() for text in axes.texts if text.get_text() in at}
+        lines = {name: axes.transData.transform((value, 0.0))[0] for name, value in at.items()}
+    assert len({round(box.y0, 6) for box in found.values()}) == 1
+    assert all(box.y0 > axes.bbox.y1 for box in found.values())
+    assert all(one.x1 < other.x0 for one, other in pairwise(found[name] for name in at))
+    for name in "ACE":
+        assert (found[name].x0 + found[name].x1) / 2 == pytest.approx(lines[name], abs=0.5)
+
+
+def test_levels_in_the_legend_differ_by_their_dashes() -> None:
+    """A level that is off the scale is not in the legend."""
+    levels = (Level(1.0, "standard", listed=True), Level(1.5, "mean", listed=True), Level(300.0, "far", listed=True))
+    panel = replace(PANEL, levels=levels, spans=(Span(0.0, 0.2, "outside validity", listed=True),))
+    with themed("light"):
+        _, (axes,) = laid_out(Figure("", (panel,), title="two peaks"))
+    legend = axes.get_legend()
+    assert legend is not None
+    assert {"standard", "mean", "outside validity"} < (names := {text.get_text() for text in legend.get_texts()})
+    assert "far" not in names
+    drawn = {line.get_label(): line._dash_pattern for line in axes.lines}  # type: ignore[attr-defined]
+    assert drawn["standard"] != drawn["mean"]
 
 
 def test_a_logarithmic_axis_within_a_decade_has_numbers_to_read() -> None:

@@ -19,11 +19,10 @@ from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullLocato
 from matplotlib.transforms import Bbox, BboxBase, ScaledTranslation
 from scipy.optimize import isotonic_regression
 
-from app.figures.data import Line, Map, Panel, Role, Row, Scale, Values
+from app.figures.data import FARTHEST_LEVEL, Line, Map, Panel, Role, Row, Scale, Values
 from app.figures.drawing.style import DASHES, LIMIT, REFERENCES, STROKES, TEXT, patch, written
 from app.figures.wording import NOISE, number, without_rounding
 
-FARTHEST_LEVEL = 4.0  # multiple of the range of values; a limit farther away is only named at the edge of the axes
 NAME_LENGTH, ROW_NAME_LENGTH = 17, 36  # characters per line of a legend, and of the name of a row
 BAR_SHARE, TINT = 0.8, 0.2  # share of the spacing that bars fill; opacity of fills
 LEGEND_COLUMNS = 2  # columns of a legend above narrow axes
@@ -97,8 +96,9 @@ def draw_panel(axes: Axes, panel: Panel, length: int, *, narrow: bool = False) -
     _draw_levels(axes, panel)
     for span in panel.spans:
         shade: Style = {"facecolor": rcParams["grid.color"], "edgecolor": "none", "zorder": 2 if panel.map else 0}
-        listed = {"label": fill(span.name, NAME_LENGTH)} if span.listed and span.name else {}
-        axes.axvspan(span.start, span.stop, **shade, **listed)
+        if span.listed and span.name:
+            shade["label"] = fill(span.name, NAME_LENGTH)
+        axes.axvspan(span.start, span.stop, **shade)
         top = (span.start + span.stop) / 2, 1.0
         if not span.listed:
             _name(axes, span.name, top, axes.get_xaxis_transform(), gid="column", color=rcParams["axes.labelcolor"])
@@ -130,7 +130,8 @@ def _draw_legend(axes: Axes, panel: Panel, *, narrow: bool) -> None:
 def legend_lines(panel: Panel) -> int:
     """Return the number of lines of the legend above a narrow panel."""
     fills = [*(ribbon.title for ribbon in panel.ribbons), *(shape.title for shape in panel.shapes)]
-    fills += [each.name for each in (*panel.levels, *panel.spans) if each.listed and each.name]
+    fills += [span.name for span in panel.spans if span.listed and span.name]
+    fills += [level.name for level in panel.levels if level.listed and level.name and level not in panel.off_scale]
     lines = [*(line.title for line in panel.lines if line.named), *fills]
     bars = [bars.title for bars in panel.bars] if len(panel.bars) > 1 else []
     names = dict.fromkeys([*lines, *bars, *(part.name for row in panel.rows for part in row.parts)])
@@ -332,7 +333,7 @@ def _edges(along: Values, log: bool) -> Values:
 def _draw_levels(axes: Axes, panel: Panel) -> None:
     """Draw limits as dashed red lines, references as dotted grey lines, and zero as a grey line.
 
-    References in the legend differ by their dashes.
+    References in the legend differ by their dashes. A level that is too far to the left or right is only named.
     """
     if panel.map is None and not panel.rows and not panel.y.log and panel.y.limits is None:
         low, high = axes.dataLim.intervaly
@@ -340,31 +341,31 @@ def _draw_levels(axes: Axes, panel: Panel) -> None:
             line = axes.axhline(0.0, color=rcParams["axes.edgecolor"], linewidth=0.8, zorder=1)
             line.sticky_edges.y.append(0.0)
     data, references = axes.dataLim.frozen(), cycle(REFERENCES)
-    for level in panel.levels:
-        low, high = data.intervalx if level.vertical else data.intervaly
-        quantity, reach = panel.x if level.vertical else panel.y, FARTHEST_LEVEL * (high - low)
-        if quantity.log or quantity.limits or low - reach <= level.value <= high + reach:
+    off_scale = panel.off_scale
+    levels = [level for level in panel.levels if level not in off_scale]
+    (low, high), x = data.intervalx, panel.x
+    reach = FARTHEST_LEVEL * (high - low)
+    for level in levels:
+        if not level.vertical or x.log or x.limits or low - reach <= level.value <= high + reach:
             style = _level_style(level.limit)
             if level.listed and level.name:
-                style |= {"label": fill(level.name, NAME_LENGTH)}
-                style |= {} if level.limit else {"linestyle": next(references)}
+                style["label"] = fill(level.name, NAME_LENGTH)
+                style["linestyle"] = style["linestyle"] if level.limit else next(references)
             (axes.axvline if level.vertical else axes.axhline)(level.value, **style)
     _end(axes, panel)
     # Names are placed from the top down. If two levels are close, the name of the lower level is then below it.
-    for level in sorted(panel.levels, key=lambda level: (not level.vertical, -level.value)):
-        low, high = sorted(axes.get_xlim() if level.vertical else axes.get_ylim())
-        below, above = (" ←", " →") if level.vertical else (" ↓", " ↑")
-        text = level.name + (below if level.value < low else above if level.value > high else "") * bool(level.name)
-        at, color = float(np.clip(level.value, low, high)), _level_style(level.limit)["color"]
-        if level.listed:
-            continue
+    low, high = sorted(axes.get_xlim())
+    top, right = axes.get_xaxis_transform(), axes.get_yaxis_transform()
+    for level in sorted(levels, key=lambda level: (not level.vertical, -level.value)):
+        name, color = level.name, _level_style(level.limit)["color"]
         if level.point:
             style = {"gid": "point", "ha": "center", "va": "bottom", "bbox": None}
-            _name(axes, level.name, (level.value, 1.0), axes.get_xaxis_transform(), color=color, **style)
-        elif level.vertical:
-            _name(axes, text, (at, 1.0), axes.get_xaxis_transform(), gid="column", color=color)
-        else:
-            _name(axes, text, (1.0, at), axes.get_yaxis_transform(), gid="row", color=color)
+            _name(axes, name, (level.value, 1.0), top, color=color, **style)
+        elif level.vertical and name:
+            name += " ←" if level.value < low else " →" if level.value > high else ""
+            _name(axes, name, (float(np.clip(level.value, low, high)), 1.0), top, gid="column", color=color)
+        elif not level.listed:
+            _name(axes, name, (1.0, level.value), right, gid="row", color=color)
 
 
 def _level_style(limit: bool) -> Style:

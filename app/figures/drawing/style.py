@@ -13,7 +13,13 @@ DPI = {"svg": 100, "png": 180, "pdf": 180}  # applies to maps inside the vector 
 TITLE, TEXT = 11.0, 8.5  # letter sizes in points; the style sheet sets the size of the texts at axes
 DASHES: dict[Role, Any] = {Role.RESULT: "solid", Role.REFERENCE: (0, (1.2, 1.8)), Role.VARIANT: (0, (4.5, 2.2))}
 STROKES: tuple[Any, ...] = ("solid", (0, (5, 1)), (0, (5, 1, 1, 1)), (0, (2, 1)))  # results that share a hue
-REFERENCES: tuple[Any, ...] = ((0, (1.0, 2.0)), (0, (7.0, 2.0, 1.0, 2.0)))  # references in one legend
+# References that one legend names.
+REFERENCES: tuple[Any, ...] = (
+    (0, (1.0, 2.0)),
+    (0, (7.0, 2.0, 1.0, 2.0)),
+    (0, (1.0, 1.0, 1.0, 4.0)),
+    (0, (7.0, 2.0, 1.0, 2.0, 1.0, 2.0)),
+)
 LIMIT = "C7"  # colour of limits
 
 

@@ -11,7 +11,7 @@ from itertools import groupby
 import numpy as np
 
 from app.figures import parts
-from app.figures.data import Axis, Figure, Hue, Level, Line, NoFigure, Panel, Role, Span, Values, values
+from app.figures.data import FARTHEST_LEVEL, Axis, Figure, Hue, Level, Line, NoFigure, Panel, Role, Span, Values, values
 from app.figures.declaration import Build, Declaration, present
 from app.figures.units import MM, UM, axis
 from app.figures.wording import number
@@ -28,7 +28,6 @@ from solvers.scuffing.safety_results import Safety, Scuffing, ScuffingPath, Ther
 UNSOLVED = {"no_solution", "refused"}
 WARNED = "outside validity"
 ROOM = 0.06  # share of the range; room above and below the lines of panels with a common scale
-FARTHEST = 4.0  # multiple of the lines' range; a level farther away is only named at the edge of the axes
 SHOWN_SAFETIES = 4.0  # end of the axis divided by the least factor; greater factors, near the pitch point, are cut off
 
 
@@ -150,10 +149,9 @@ def _along(inputs: ScuffingInputs, result: Scuffing, finding: str, panel: Callab
     points, panels = _points(inputs, result), list[Panel]()
     for path in _paths(result).values():
         line_panel = panel(path)
-        levels, spans = [*line_panel.levels, *points], _warned(path)
-        if panels:
-            levels, spans = parts.unnamed(levels), parts.unnamed(spans)
-        panels.append(replace(line_panel, levels=levels, spans=spans))
+        levels = [*line_panel.levels, *points]
+        shown = parts.unnamed(levels) if panels else levels
+        panels.append(replace(line_panel, levels=shown, spans=_warned(path)))
     if len(panels) > 1:
         limits = _common_limits(panels)
         panels = [
@@ -170,7 +168,7 @@ def _common_limits(panels: Sequence[Panel]) -> tuple[float, float]:
         return axes.limits
     shown = np.concatenate([line.y[np.isfinite(line.y)] for panel in panels for line in panel.lines])
     low, high = float(shown.min()), float(shown.max())
-    reach = FARTHEST * (high - low)
+    reach = FARTHEST_LEVEL * (high - low)
     levels = [level.value for panel in panels for level in panel.levels if not level.vertical]
     near = [value for value in levels if low - reach <= value <= high + reach]
     low, high = min([low, *near]), max([high, *near])
