@@ -84,5 +84,6 @@ def _sheet(asked: Asked) -> Table | None:
 
 def _is_corrected(case: SolvedCase) -> bool:
     """Whether the flanks of a case have any correction to grind."""
-    given = value_at(case.request, "modifications")
-    return any(value for name, value in given.model_dump().items() if name.endswith("_um"))
+    given = value_at(case.request, "modifications").model_dump()
+    every = given | (given.get("second_helix") or {})
+    return any(value for name, value in every.items() if name.endswith("_um"))

@@ -9,16 +9,20 @@ import re
 import shlex
 from functools import cache
 from html import unescape
+from types import SimpleNamespace
 from typing import Any
 
 import httpx
 import pytest
+from fastapi import Request
+from fastapi.responses import HTMLResponse
 from hypothesis import strategies as st
 
 from app.calculations import BY_PATH, CALCULATIONS, Calculation
-from app.errors import Unprocessable, Unreadable
+from app.errors import DeadlineExceeded, Unprocessable, Unreadable
 from app.evaluate import evaluate, written
 from app.examples import examples
+from app.http.routes.pages import failed
 from app.pages import csv, views
 from app.pages.cases import Asked, solved
 from app.pages.form import FormState, form
@@ -641,3 +645,11 @@ def test_a_missing_section_is_told_by_its_fields() -> None:
     assert "number of teeth, wheel is required" in problem
     assert "pinion speed is required" in problem
     assert "load is required" not in problem
+
+
+@pytest.mark.parametrize(("method", "again"), [("GET", True), ("POST", False)])
+def test_a_page_that_took_too_long_can_be_asked_again(method: str, again: bool) -> None:
+    scope = {"type": "http", "method": method, "path": "/scuffing", "root_path": "", "query_string": b"", "headers": []}
+    page = failed(Request({**scope, "route": SimpleNamespace(response_class=HTMLResponse)}), DeadlineExceeded())
+    assert page.status_code == 504
+    assert ("Try again" in bytes(page.body).decode()) == again
