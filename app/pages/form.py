@@ -3,6 +3,7 @@
 The form shows each field with the text that the user typed, the meaning of the field, and the faults of the field.
 """
 
+import re
 from collections.abc import Iterable, Iterator, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field, replace
@@ -228,7 +229,7 @@ def _branch(branch: Branch, path: str, state: FormState, item: int | None = None
             widget="select",
             text=state.texts.get(path, PRESENT if given else ""),
             options=(("", "no"), (PRESENT, "yes")),
-            help=(branch.description,),
+            help=(_in_a_form(branch.description),),
         )
     unused = (branch.optional or branch.repeated or state.required == IF_USED) and not given
     is_solved_item = item is not None and state.resolved and not _count(state.faults, path)
@@ -436,7 +437,12 @@ def _help(leaf: Leaf, *, assumed: bool) -> tuple[str, ...]:
         f"{'Assumed' if assumed else 'Our default'}: {leaf.declared.assumed}." if leaf.declared.assumed else "",
         f"Instead of: {', '.join(fellows)}." if leaf.exclusive else "",
     ]
-    return tuple(cited(line) for line in lines if line)
+    return tuple(cited(_in_a_form(line)) for line in lines if line)
+
+
+def _in_a_form(text: str) -> str:
+    """Return a text about a request in the words of a form, where a field without a value is empty."""
+    return re.sub(r"\bnull\b", "empty", text)
 
 
 def _rule(name: str, state: FormState) -> tuple[str, ...]:

@@ -653,3 +653,11 @@ def test_a_page_that_took_too_long_can_be_asked_again(method: str, again: bool) 
     page = failed(Request({**scope, "route": SimpleNamespace(response_class=HTMLResponse)}), DeadlineExceeded())
     assert page.status_code == 504
     assert ("Try again" in bytes(page.body).decode()) == again
+
+
+@pytest.mark.parametrize("calculation", CALCULATIONS, ids=IDS)
+def test_the_help_of_a_field_speaks_of_empty_fields(calculation: Calculation) -> None:
+    html = html_of(Asked(page_path(calculation), []))
+    lines = re.findall(r'<span class="help" id="[^"]+">(.*?)</span>\s*(?:</span>|<a)', html)
+    assert lines
+    assert not [line for line in lines if re.search(r"\bnull\b", line)]
