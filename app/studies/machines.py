@@ -13,7 +13,7 @@ import numpy as np
 from pydantic import Field
 
 from app.errors import Unprocessable
-from app.models.sections.gears import SLOPES_BY_CLASS
+from app.models.sections.gears import QUALITY_CLASS, SLOPES_BY_CLASS
 from app.schema.fields import Leaf, value_at
 from app.schema.model import Request
 from app.schema.quantities import Input
@@ -101,7 +101,7 @@ class Machines:
         self._request = request
         self.classes = sorted(set(given.classes))
         self.tolerances = {each: _of_class(request, each, f"{place}.classes") for each in self.classes}
-        own = value_at(request, "gears.quality_class")
+        own = value_at(request, QUALITY_CLASS)
         wanted = USUAL_CLASS if own is None else own
         self.reference = wanted if wanted in self.classes else self.classes[len(self.classes) // 2]
         self.slopes = [*self.tolerances[self.reference]]

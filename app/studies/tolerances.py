@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from app.errors import Unprocessable
-from app.models.sections.gears import SECOND_BY_CLASS, SLOPES_BY_CLASS
+from app.models.sections.gears import QUALITY_CLASS, SECOND_BY_CLASS, SLOPES_BY_CLASS
 from app.schema.fields import value_at
 from app.schema.model import Request
 from app.studies.requests import Axis, Normal
@@ -27,7 +27,7 @@ def class_tolerances(request: Request, quality_class: int | None = None) -> dict
     `quality_class` stands for the class of the gears. Raises Unprocessable if the gears are beyond the limits of the
     standard.
     """
-    own = value_at(request, "gears.quality_class") if quality_class is None else quality_class
+    own = value_at(request, QUALITY_CLASS) if quality_class is None else quality_class
     if own is None:
         return {}
     try:

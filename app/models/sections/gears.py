@@ -10,10 +10,17 @@ from solvers.gears.inputs import GROUND_FILLET, RACK_A, GearPairInputs, GearTeet
 from solvers.materials import Solid
 from solvers.pumping.inputs import PumpingSetup
 
+QUALITY_CLASS = "gears.quality_class"
+"""The field of the quality class."""
 SLOPES_BY_CLASS = ("modifications.helix_slope_um", "modifications.profile_slope_um")
 """The fields that scatter by the quality class of the gears."""
 SECOND_BY_CLASS = "modifications.second_helix.helix_slope_um"
 """The field of a second helix that does."""
+
+
+def of_class(quality_class: int) -> dict[str, int]:
+    """Return what a request changes for gears of a quality class, by the paths of the fields."""
+    return {QUALITY_CLASS: quality_class}
 
 
 class GearMember(Section, of=GearTeeth):

@@ -11,6 +11,7 @@ from app.figures.studies import Lead, lead_chart, search
 from app.figures.units import axis_of
 from app.figures.wording import percent
 from app.models.drive_train.figures import GAP, LOAD_ALONE
+from app.models.sections.gears import QUALITY_CLASS, of_class
 from app.pages.cases import REFUSED, SolvedCase
 from app.pages.pair_path import WITH_PAIR
 from app.pages.studies.controls import Control
@@ -41,7 +42,6 @@ SAMPLES = 4  # independent samples of machines; the scatter of their means gives
 EVALUATIONS = 24  # default of the largest number of evaluations on the page; chosen
 STEP_UM = 0.5  # the page rounds the best correction to multiples of this step
 SLOPE, CROWNING = "modifications.helix_slope_um", "modifications.lead_crowning_um"
-QUALITY = "gears.quality_class"
 TIP, ROOT = "modifications.tip_relief_um", "modifications.root_relief_um"
 SLOPE_2, CROWNING_2 = "modifications.second_helix.helix_slope_um", "modifications.second_helix.lead_crowning_um"
 HELICES = ((SLOPE, CROWNING), (SLOPE_2, CROWNING_2))  # fields of the correction of each helix, in the order of Z
@@ -235,8 +235,8 @@ class DesignPage(UnitPage):
 
     def _exactly(self, price: Line | None) -> Overrides:
         """Return the class to which the gears of a report are ground, unless the case has one."""
-        own = value_at(self.asked.body, QUALITY)
-        return {} if price is None or own or not price["coarsest_class"] else {QUALITY: price["coarsest_class"]}
+        own = value_at(self.asked.body, QUALITY_CLASS)
+        return {} if price is None or own or not price["coarsest_class"] else of_class(price["coarsest_class"])
 
     @property
     def _where(self) -> str:
@@ -314,7 +314,7 @@ def grinding_sheet(case: SolvedCase, at: Overrides | None = None, price: Line | 
     price of a tolerance, that of a slope is of the coarsest class that is exact enough; without it, of the gears' own.
     """
     widths = class_tolerances(case.request) if price is None else exact_enough(price)
-    quality = value_at(case.request, QUALITY) if price is None else price["coarsest_class"]
+    quality = value_at(case.request, QUALITY_CLASS) if price is None else price["coarsest_class"]
     inputs, faces, request = case.response.inputs, _faces(case), type(case.request)
     tip, wheel_tip = (
         f"tip relief, {shown(length)} mm along the line of action" if length is not None else "tip relief"

@@ -15,6 +15,7 @@ from app.figures.data import Figure, NoFigure
 from app.figures.spectrum import Limited, LimitedCase, chance_text, chances, deciding, losses, overlap, sentence
 from app.figures.units import axis_of
 from app.figures.wording import difference_unit, number, percent
+from app.models.sections.gears import QUALITY_CLASS
 from app.pages.cases import REFUSED
 from app.pages.form import FieldView
 from app.pages.query import Pairs, link, pairs_of
@@ -165,7 +166,7 @@ class SpectrumPage(StudyPage):
             raise Unprocessable("int_type", "give a whole number", "tolerances.count")
         models = tolerances.get("model_uncertainty", False)
         draws = {"count": machines // REPLICATES, "replicates": REPLICATES, "model_uncertainty": models}
-        scatters = inputs or models or value_at(self.case, "gears.quality_class")
+        scatters = inputs or models or value_at(self.case, QUALITY_CLASS)
         return {
             "endpoint": calculation.path,
             "request": self.asked.body,
