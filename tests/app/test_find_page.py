@@ -140,6 +140,7 @@ def test_jumps_and_gaps_are_no_answers() -> None:
 
 def test_a_curve_that_levels_off_is_not_followed_further() -> None:
     study = checked(SolveForPage, asked(COUPLING, x=TORQUE, wanted="5"))
+    assert isinstance(study, SolveForPage)
     header = {"find": {"min": 0.0, "max": 100.0, "scale": "linear"}, "equals": 5.0, "extreme": None}
     nearest = {"at": 100.0, "out": 4.0, "end": "max"}
     end = {"answers": [], "crossings": [], "nearest": nearest, "constant": False}
@@ -161,6 +162,7 @@ def test_a_curve_that_levels_off_is_not_followed_further() -> None:
 
 def test_a_range_is_not_made_longer_through_zero() -> None:
     study = checked(SolveForPage, asked(COUPLING, x="operation.misalignment_deg", wanted="5"))
+    assert isinstance(study, SolveForPage)
     header = {"find": {"min": 0.02, "max": 0.1, "scale": "linear"}, "equals": 5.0, "extreme": None}
     assert Found(study.leaf, study.output, header, {}).beyond("min") == (0.0, 0.02)
 

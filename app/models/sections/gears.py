@@ -18,7 +18,7 @@ SECOND_BY_CLASS = "modifications.second_helix.helix_slope_um"
 """The field of a second helix that does."""
 
 
-def of_class(quality_class: int) -> dict[str, int]:
+def of_class(quality_class: int) -> dict[str, Any]:
     """Return what a request changes for gears of a quality class, by the paths of the fields."""
     return {QUALITY_CLASS: quality_class}
 
