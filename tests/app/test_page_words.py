@@ -116,6 +116,14 @@ def test_the_top_of_the_coupling_judges_thrust_and_misalignment_and_answers_the_
     assert together(said) in unescape(re.sub(r"<[^>]+>", "", html_of(asked(COUPLING))))
 
 
+def test_a_thrust_without_axial_velocity_is_said() -> None:
+    """Two meshes in a Z push each other although the shafts do not move axially."""
+    response = solved(BY_PATH["/v1/coupling"], pairs_of(examples()["pahl-z-arrangement"].request), None).response
+    assert conclusion(response).startswith("Free axially: its thrust in motion is 4.42 %")
+    still = coupling(**{"operation.axial_velocity_mm_per_s": 0.0})
+    assert conclusion(still).startswith("Free axially: without axial velocity it has no thrust in motion.")
+
+
 @pytest.mark.parametrize(("diameter", "level", "words"), [(30.0, "good", "below"), (150.0, "bad", "exceeds")])
 def test_thrust_is_compared_with_the_customary_one(diameter: float, level: str, words: str) -> None:
     operation = {**examples()[COUPLING].request["operation"], "shaft_diameter_mm": diameter}

@@ -161,11 +161,12 @@ def test_a_relieved_unit_says_once_why_the_flash_method_is_missing() -> None:
         (0.66, 1.1, 1.4, f"{BY_BOTH} 0.66 (flash) and 1.1 (integral): by the standard it scuffs."),
         (0.66, 1.1, 0.9, f"{BY_BOTH} 0.66 (flash) and 1.1 (integral)."),
         (None, 1.28, 1.85, "By ISO/TS 6336-21 the safety factor is 1.28 (integral)."),
+        (0.66, None, None, "By ISO/TS 6336-20 the safety factor is 0.66 (flash): by the standard it scuffs."),
         (None, None, 1.85, ""),
     ],
 )
 def test_the_conclusion_says_what_the_standard_finds(
-    flash: float | None, integral: float | None, own: float, said: str
+    flash: float | None, integral: float | None, own: float | None, said: str
 ) -> None:
     methods = {
         name: safety and SimpleNamespace(safety=safety) for name, safety in (("flash", flash), ("integral", integral))

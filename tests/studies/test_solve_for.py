@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from app.examples import examples
-from app.studies.kinds.solve_for import SolveFor, usual_range
+from app.studies.kinds.solve_for import SolveFor, Track, usual_range
 from app.studies.kinds.sweep import Sweep
 from app.studies.points import solve_point
 from solvers.named_oils import named_oils
@@ -206,6 +206,15 @@ def test_a_peak_at_zero_is_seen_between_two_points() -> None:
     low, high = (each["at"] for each in ended(body)["answers"])
     assert low == pytest.approx(-high)
     assert high < 0.02
+
+
+@pytest.mark.parametrize(("low", "high"), [(-5.0, 10.0), (-0.3, 0.6), (-1e-3, 7.0), (-7.0, 1e-12)])
+def test_zero_is_scanned_once(low: float, high: float) -> None:
+    track = Track("linear", low, high)
+    values = [track.value(place) for place in track.scan(4)]
+    assert values.count(0.0) == 1
+    assert values == sorted(values)
+    assert min(np.diff(np.array(values, dtype=float))) > 1e-10 * (high - low)
 
 
 def test_a_range_without_an_answer_names_the_nearest_and_its_end() -> None:

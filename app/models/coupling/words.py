@@ -164,8 +164,8 @@ def conclusion(response: Any) -> str:
     unloads = f"{carry} {teeth} teeth carry; the first unloads at {number(load.unloading_misalignment_deg, '°')}."
     if thrust.indeterminate:
         return f"{permits} {unloads}"
-    if not response.inputs["operation"]["axial_velocity_mm_per_s"]:
-        return f"Free axially; at an axial velocity of zero nothing pushes it. {permits} {unloads}"
+    if not thrust.fraction_of_limit and not response.inputs["operation"]["axial_velocity_mm_per_s"]:
+        return f"Free axially: without axial velocity it has no thrust in motion. {permits} {unloads}"
     share = percent(abs(thrust.fraction_of_limit))
     return f"Free axially: its thrust in motion is {share} of the thrust of coaxial shafts. {permits} {unloads}"
 

@@ -183,7 +183,7 @@ def by_standard(safety: Any, own: float | None, of: str = "") -> str:
         return ""
     parts = " and ".join(f"-{part}" for part, _, _ in found)
     factors = " and ".join(f"{number(factor)} ({name})" for _, name, factor in found)
-    is_stricter = own is not None and own >= 1.0 > min(factor for _, _, factor in found)
+    is_stricter = (own is None or own >= 1.0) and min(factor for _, _, factor in found) < 1.0
     end = ": by the standard it scuffs" if is_stricter else ""
     return f"By ISO/TS 6336{parts} the safety factor{of} is {factors}{end}."
 

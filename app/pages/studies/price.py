@@ -32,15 +32,12 @@ def exact_enough(found: Line) -> Overrides:
 def price_verdict(found: Line) -> str:
     """Say how exactly it must be ground: verdict, number, reason."""
     if found["exact"]["bounds"][1] >= MODERATE:
-        chance = chance_text(found["exact"])
+        chance, coarsest = chance_text(found["exact"]), found["coarsest_class"]
+        costs = f"{f'Class {coarsest}' if coarsest else 'No class'} costs less than a tenth more."
         return (
             f"Not safe however exactly it is ground: with exact flanks damage is {chance} probable. Change oil, relief "
-            f"or geometry first. {_by_class(found)}"
+            f"or geometry first. {costs}"
         )
-    return _by_class(found)
-
-
-def _by_class(found: Line) -> str:
     rows = {row["quality_class"]: row for row in found["classes"]}
     exact, coarsest = chance_text(found["exact"]), found["coarsest_class"]
     if coarsest == max(rows) and not any(row["more"] for row in rows.values()):

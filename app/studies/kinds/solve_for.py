@@ -37,6 +37,7 @@ FACTOR = 4.0  # default range of a field above zero: the value of the case divid
 TOLERANCES = 10.0  # least half width of the default range of any other field, in its tolerances; chosen
 WIDE = 100.0  # a whole range whose ends have a greater ratio is scanned in even ratios
 MOST_STEPS, USUAL_STEPS = 100, 8  # points after the scan: most of them, and those of a single answer
+SAME = 1e-9  # places of a range that are nearer than this share of it are one
 LIST_SCANNED = 2  # a list of at most this many times the points of the scan is scanned as a whole
 
 
@@ -113,8 +114,9 @@ class Track(NamedTuple):
     def scan(self, count: int) -> tuple[float, ...]:
         """Return the places of the scan: all of a short list, else `count` of them or a few more in a list."""
         if not self.listed:
-            zero = [] if self._zero is None else [self._zero]
-            return tuple(np.unique([*np.linspace(0.0, 1.0, count), *zero]).tolist())
+            places, zero = np.linspace(0.0, 1.0, count).tolist(), self._zero
+            others = places if zero is None else [place for place in places if abs(place - zero) > SAME]
+            return tuple(sorted(others if zero is None else [*others, zero]))
         last = len(self.listed) - 1
         if self.scale == "oils" or last < LIST_SCANNED * count:
             return tuple(map(float, range(last + 1)))
